@@ -153,8 +153,9 @@ pub struct Unbalanced;
 
 /// Steps after which the search ends.
 const STEPS: usize = 300;
-/// Residual over the given loads at which an equilibrium is accepted.
+/// Residual over the given loads at which an equilibrium is accepted, and at which the search ends.
 const ACCEPTED: f64 = 1e-10;
+const WANTED: f64 = 1e-11;
 /// The share of the forces of the elements that counts as rounding.
 const ROUNDING: f64 = 1e-14;
 
@@ -268,7 +269,7 @@ pub fn balance(row: &impl Row, given: &Axes<Given>) -> Result<Equilibrium, Unbal
             best = (size, u);
         }
         let rounding = ROUNDING * at.loads;
-        if size <= rounding.max(1e-13 * applied) {
+        if size <= rounding.max(WANTED * applied) {
             break;
         }
         let mut step = problem.definite(&at.stiffness, 1e-6 * size / reach).solve(&-off);

@@ -160,42 +160,46 @@ impl BallsAtSpeed<'_> {
             let motion = self.motion([inner.angle(), outer.angle()]);
             let friction = 2.0 * motion.gyroscopic / self.balls.geometry().diameter;
             let [sin, cos] = outer.direction;
-            let off = [
-                inner.load * inner.direction[0] - outer.load * sin + friction * cos,
-                inner.load * inner.direction[1] - outer.load * cos - friction * sin + motion.centrifugal,
-            ];
-            (
-                Settled {
-                    contacts: [inner, outer],
-                    motion,
-                },
-                off,
-            )
+            let inertia = [friction * cos, motion.centrifugal - friction * sin];
+            let off = [0, 1].map(|i| inner.load * inner.direction[i] - outer.load * outer.direction[i] + inertia[i]);
+            let contacts = [inner, outer];
+            (Settled { contacts, motion }, inertia, off)
         };
-        let (mut at, mut off) = evaluate(place);
+        let (mut at, mut inertia, mut off) = evaluate(place);
+        // Slope of the forces of inertia, from their changes so far (Broyden).
+        let mut slope = [[0.0; 2]; 2];
         for _ in 0..STEPS {
             let size = off[0].hypot(off[1]);
             let forces = at.contacts[0].load + at.contacts[1].load + at.motion.centrifugal;
-            if size <= 1e-14 * forces {
-                break;
-            }
-            let step = solve(sum(at.contacts[0].stiffness(), at.contacts[1].stiffness()), off);
-            if !(step[0].is_finite() && step[1].is_finite()) {
+            let stiffness = sum(at.contacts[0].stiffness(), at.contacts[1].stiffness());
+            let step = solve(sum(stiffness, slope.map(|row| row.map(|x| -x))), off);
+            if size <= 1e-14 * forces || !(step[0].is_finite() && step[1].is_finite()) {
                 break;
             }
             let mut share = 1.0;
-            let (next, reached, left) = loop {
+            let (next, reached, changed, left) = loop {
                 let next = [place[0] + share * step[0], place[1] + share * step[1]];
-                let (reached, left) = evaluate(next);
+                let (reached, changed, left) = evaluate(next);
                 if left[0].hypot(left[1]) < size || share < 1e-3 {
-                    break (next, reached, left);
+                    break (next, reached, changed, left);
+                }
+                // Rounding.
+                if size <= 1e-12 * forces {
+                    return Some(at);
                 }
                 share *= 0.5;
             };
-            if next == place {
+            let moved = [next[0] - place[0], next[1] - place[1]];
+            let square = moved[0] * moved[0] + moved[1] * moved[1];
+            if square == 0.0 {
                 break;
             }
-            (place, at, off) = (next, reached, left);
+            for i in [0, 1] {
+                let expected = slope[i][0] * moved[0] + slope[i][1] * moved[1];
+                let missed = (changed[i] - inertia[i] - expected) / square;
+                slope[i] = [slope[i][0] + missed * moved[0], slope[i][1] + missed * moved[1]];
+            }
+            (place, at, inertia, off) = (next, reached, changed, left);
         }
         Some(at)
     }
