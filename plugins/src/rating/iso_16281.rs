@@ -468,7 +468,7 @@ mod tests {
     fn misalignment_shortens_the_life_of_rollers() {
         let found = |rating: &str| rated(ROLLER, "{ radial: 10000 N, axial: 0 N }", rating);
         let (straight, tilted) = (found("{}"), found("{ misalignment: 10 arcmin }"));
-        assert_close(straight.step("L10r").unwrap(), 1475.248_256, 1e-8);
+        assert_close(straight.step("L10r").unwrap(), 1_475.248_256, 1e-8);
         assert_close(tilted.step("L10r").unwrap(), 620.146_743, 1e-5);
         let growth = value(&tilted, "p_max") / value(&straight, "p_max");
         assert_close(growth, 13.416_644_287 / 11.627_200_084, 1e-5);

@@ -19,21 +19,12 @@ impl Elliptic {
     pub fn complementary(modulus: f64) -> Self {
         let parameter = (1.0 - modulus) * (1.0 + modulus);
         let (mut a, mut b) = (1.0, modulus);
-        // The sum of 2^(n-1) c_n^2 over the parameter, whose first term is a half.
-        let (mut sum, mut weight) = (0.5, 1.0);
-        while parameter > 0.0 {
-            // c_n = (a - b)/2; the difference of the squares does not cancel in the first step.
-            let c = if weight == 1.0 {
-                0.5 * parameter / (1.0 + modulus)
-            } else {
-                0.5 * (a - b)
-            };
-            (a, b) = (0.5 * (a + b), (a * b).sqrt());
+        // The sum of 2^(n-1) c_n^2 over the parameter, whose first term is a half; c_n = (a - b)/2.
+        let (mut sum, mut weight, mut c) = (0.5, 1.0, 0.5 * (1.0 - modulus));
+        while c > 1e-15 * a {
             sum += weight * c * c / parameter;
-            weight *= 2.0;
-            if c <= 1e-9 * a {
-                break;
-            }
+            (a, b) = (0.5 * (a + b), (a * b).sqrt());
+            (weight, c) = (2.0 * weight, 0.5 * (a - b));
         }
         let first = FRAC_PI_2 / a;
         let share = 1.0 - parameter * sum;

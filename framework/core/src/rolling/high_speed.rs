@@ -1,7 +1,7 @@
 //! Balls whose centrifugal force and gyroscopic moment matter.
 //!
 //! Source: Jones 1960 and Harris, derived again: the inner ring rotates, the outer ring is at rest and controls, so that the ball does not spin
-//! on it: tan(beta) = sin a_o/(cos a_o + D/d_m) for the pitch angle beta of its rotation, F_c = m d_m w_m^2/2, M_g = (m D^2/10) w_m w_R sin(beta).
+//! on it: tan(beta) = sin a_o/(cos a_o + D/d_m) for the angle beta of its own axis, F_c = m d_m w_m^2/2, M_g = (m D^2/10) w_m w_R sin(beta).
 //! The whole gyroscopic moment is a friction force T = 2 M_g/D at the outer contact, a convention; the ball slips where T exceeds mu Q_o, which is
 //! not checked here. The centrifugal force is at the radius d_m/2.
 
@@ -25,8 +25,8 @@ pub struct BallMotion {
     pub orbital: f64,
     /// Speed of the ball about its own axis, w_R. \[rad/s\]
     pub rotation: f64,
-    /// Angle of that axis to the axis of the bearing. \[rad\]
-    pub pitch: f64,
+    /// Sine and cosine of the angle beta of that axis to the axis of the bearing.
+    pub axis: [f64; 2],
     /// Spin in the inner and the outer contact. \[rad/s\]
     pub spin: [f64; 2],
     /// Centrifugal force. \[N\]
@@ -94,26 +94,32 @@ impl Balls {
 }
 
 impl BallsAtSpeed<'_> {
-    /// Motion of a ball with these contact angles.
-    fn motion(&self, [inner, outer]: [f64; 2]) -> BallMotion {
+    /// Motion of a ball with contacts in these directions, sine and cosine of the contact angles.
+    fn motion(&self, [inner, outer]: [[f64; 2]; 2]) -> BallMotion {
         let geometry = self.balls.geometry();
         let ratio = geometry.diameter / geometry.pitch_diameter;
-        let pitch = (outer.sin()).atan2(outer.cos() + ratio);
-        let of_inner = (1.0 - ratio * inner.cos()) * (outer - pitch).cos();
-        let of_outer = (1.0 + ratio * outer.cos()) * (inner - pitch).cos();
+        let axis = {
+            let [sin, cos] = [outer[0], outer[1] + ratio];
+            let length = (sin * sin + cos * cos).sqrt();
+            [sin / length, cos / length]
+        };
+        let cos_from_axis = |[sin, cos]: [f64; 2]| cos * axis[1] + sin * axis[0];
+        let sin_from_axis = |[sin, cos]: [f64; 2]| axis[0] * cos - axis[1] * sin;
+        let of_inner = (1.0 - ratio * inner[1]) * cos_from_axis(outer);
+        let of_outer = (1.0 + ratio * outer[1]) * cos_from_axis(inner);
         let orbital = self.speed * of_inner / (of_inner + of_outer);
-        let rotation = orbital * (1.0 / ratio + outer.cos()) / (outer - pitch).cos();
+        let rotation = orbital * (1.0 / ratio + outer[1]) / cos_from_axis(outer);
         let inertia = self.mass * geometry.diameter * geometry.diameter / 10.0;
         BallMotion {
             orbital,
             rotation,
-            pitch,
+            axis,
             spin: [
-                rotation * (pitch - inner).sin() - (self.speed - orbital) * inner.sin(),
-                rotation * (pitch - outer).sin() + orbital * outer.sin(),
+                rotation * sin_from_axis(inner) - (self.speed - orbital) * inner[0],
+                rotation * sin_from_axis(outer) + orbital * outer[0],
             ],
             centrifugal: 0.5 * self.mass * geometry.pitch_diameter * orbital * orbital,
-            gyroscopic: inertia * orbital * rotation * pitch.sin(),
+            gyroscopic: inertia * orbital * rotation * axis[0],
         }
     }
 
@@ -124,7 +130,9 @@ impl BallsAtSpeed<'_> {
     }
 
     fn groove_contact(&self, ring: usize, to_ball: [f64; 2]) -> GrooveContact {
-        let distance = to_ball[0].hypot(to_ball[1]).max(f64::MIN_POSITIVE);
+        let distance = (to_ball[0] * to_ball[0] + to_ball[1] * to_ball[1])
+            .sqrt()
+            .max(f64::MIN_POSITIVE);
         let approach = (distance - self.free_distance(ring)).max(0.0);
         let slope = 1.5 * self.balls.contacts()[ring].stiffness() * approach.sqrt();
         GrooveContact {
@@ -145,7 +153,7 @@ impl BallsAtSpeed<'_> {
         let toward = centres.map(|part| part / distance.max(f64::MIN_POSITIVE));
         let stiffness = self.balls.contacts()[1].stiffness();
         let load = self.balls.stiffness() * approach.max(0.0).powf(1.5);
-        let motion = self.motion([toward[0].atan2(toward[1]); 2]);
+        let motion = self.motion([toward; 2]);
         let pressed = (load.max(motion.centrifugal) / stiffness).powf(2.0 / 3.0);
         let reach = self.free_distance(1) + pressed;
         // Centre of the ball from that of the outer groove; thrown outwards where the rings do not hold it.
@@ -157,7 +165,7 @@ impl BallsAtSpeed<'_> {
         let evaluate = |place: [f64; 2]| {
             let outer = self.groove_contact(1, place);
             let inner = self.groove_contact(0, [centres[0] - place[0], centres[1] - place[1]]);
-            let motion = self.motion([inner.angle(), outer.angle()]);
+            let motion = self.motion([inner.direction, outer.direction]);
             let friction = 2.0 * motion.gyroscopic / self.balls.geometry().diameter;
             let [sin, cos] = outer.direction;
             let inertia = [friction * cos, motion.centrifugal - friction * sin];

@@ -185,31 +185,7 @@ impl BearingPart {
                 "needle roller bearings: state `internal.elements`, `internal.diameter` and `internal.length`".into(),
             );
         }
-        let section = self.outside - self.bore;
-        let share = if kind.has_balls() { 0.3 } else { 0.275 };
-        let rule = or_estimate(internal.diameter, &mut is_estimated, || share * section);
-        let elements = or_estimate(internal.elements.map(f64::from), &mut is_estimated, || {
-            let half_pitch = (rule / pitch_diameter).min(1.0).asin();
-            match kind {
-                BearingKind::DeepGrooveBall => (1.0 + 186.0_f64.to_radians() / (2.0 * half_pitch)).round(),
-                BearingKind::AngularContactBall => (2.9 * pitch_diameter / rule).floor(),
-                BearingKind::CylindricalRollerFullComplement => (0.98 * std::f64::consts::PI / half_pitch).floor(),
-                _ => (0.83 * std::f64::consts::PI / half_pitch).floor(),
-            }
-        });
-        let of_rating = self.c0.zip(self.calculation_factor);
-        let diameter = match (internal.diameter, of_rating) {
-            (None, Some((c0, f0))) if kind == BearingKind::DeepGrooveBall => {
-                // C0 = f0 Z D^2, in N and mm.
-                let found = 1e-3 * (c0 / (f0 * elements)).sqrt();
-                if (0.85..1.15).contains(&(found / rule)) {
-                    found
-                } else {
-                    rule
-                }
-            }
-            _ => rule,
-        };
+        let [elements, diameter] = self.number_and_diameter(&internal, pitch_diameter, &mut is_estimated);
         let half_pitch = (diameter / pitch_diameter).min(1.0).asin();
         let is_between =
             pitch_diameter - diameter >= 0.9999 * self.bore && pitch_diameter + diameter <= 1.0001 * self.outside;
@@ -242,13 +218,11 @@ impl BearingPart {
             }
             ElementRow::Balls(Balls::new(geometry))
         } else {
-            let length = match internal.length {
-                Some(length) => length,
-                None => {
-                    is_estimated = true;
-                    self.estimated_length(elements, diameter, pitch_diameter, contact_angle)?
-                }
-            };
+            is_estimated |= internal.length.is_none();
+            let length = internal.length.map_or_else(
+                || self.estimated_length(elements, diameter, pitch_diameter, contact_angle),
+                Ok,
+            )?;
             ElementRow::Rollers(Rollers::new(RollerGeometry {
                 number: elements as usize,
                 diameter,
@@ -267,6 +241,39 @@ impl BearingPart {
             is_estimated,
             is_clearance_assumed,
         })
+    }
+
+    /// Number of elements and their diameter, stated or estimated. \[-, m\]
+    fn number_and_diameter(
+        &self,
+        internal: &InternalGeometry,
+        pitch_diameter: f64,
+        is_estimated: &mut bool,
+    ) -> [f64; 2] {
+        let share = if self.kind.has_balls() { 0.3 } else { 0.275 };
+        let rule = or_estimate(internal.diameter, is_estimated, || share * (self.outside - self.bore));
+        let elements = or_estimate(internal.elements.map(f64::from), is_estimated, || {
+            let half_pitch = (rule / pitch_diameter).min(1.0).asin();
+            match self.kind {
+                BearingKind::DeepGrooveBall => (1.0 + 186.0_f64.to_radians() / (2.0 * half_pitch)).round(),
+                BearingKind::AngularContactBall => (2.9 * pitch_diameter / rule).floor(),
+                BearingKind::CylindricalRollerFullComplement => (0.98 * std::f64::consts::PI / half_pitch).floor(),
+                _ => (0.83 * std::f64::consts::PI / half_pitch).floor(),
+            }
+        });
+        let diameter = match (internal.diameter, self.c0.zip(self.calculation_factor)) {
+            (None, Some((c0, f0))) if self.kind == BearingKind::DeepGrooveBall => {
+                // C0 = f0 Z D^2, in N and mm.
+                let found = 1e-3 * (c0 / (f0 * elements)).sqrt();
+                if (0.85..1.15).contains(&(found / rule)) {
+                    found
+                } else {
+                    rule
+                }
+            }
+            _ => rule,
+        };
+        [elements, diameter]
     }
 
     /// Contact angle from the designation or the factors of the equivalent load. \[rad\]
@@ -401,7 +408,8 @@ mod tests {
         assert!(cylindrical.rolling_elements().unwrap_err().contains("internal.length"));
         cylindrical.width = Some(0.018);
         let found = rollers(&cylindrical);
-        assert_eq!((found.number, 1e3 * found.diameter), (14, 11.0));
+        assert_eq!(found.number, 14);
+        assert_close(found.diameter, 11e-3, 1e-12);
         assert_close(found.length, 12e-3, 0.15);
         cylindrical.c0 = Some(53_000.0);
         assert_close(rollers(&cylindrical).length, 12e-3, 0.25);

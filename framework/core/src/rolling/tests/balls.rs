@@ -94,7 +94,7 @@ fn combined_load_with_a_free_tilt() {
     assert_close(found.displacement.radial[0], 19.59177 * UM, 1e-6);
     assert_close(found.displacement.axial, 146.45996 * UM, 1e-6);
     assert_close(found.displacement.tilt[0].asin(), -2.65924e-3, 2e-6);
-    assert_loads(&loose, &found, &[1024.269_79, 773.552_78, 476.815_32, 446.350_04]);
+    assert_loads(&loose, &found, &[1_024.269_79, 773.552_78, 476.815_32, 446.350_04]);
 }
 
 /// SciPy; displacements there are from where the balls touch at the contact angle of the clearance.
