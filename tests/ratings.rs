@@ -226,6 +226,8 @@ fn with_bearing(name: &str, bearing: &str) -> Vec<String> {
     let catalogue = "designation,kind,bore [mm],outside [mm],c [N],c0 [N],internal.elements [-],internal.diameter [mm]\n\
                      X1,deep_groove_ball,40,80,32500,19000,8,12.5\n";
     std::fs::write(folder.join("own.csv"), catalogue).unwrap();
+    let map = crate::common::file("examples/electric-drive-unit/motor_map.csv");
+    std::fs::copy(map, folder.join("motor_map.csv")).unwrap();
     std::fs::write(folder.join("gearbox.yaml"), changed).unwrap();
     let path = folder.join("gearbox.yaml").to_str().unwrap().to_owned();
     let args = ["explain", &path, "bearings.B1"].map(str::to_owned);
@@ -256,7 +258,7 @@ fn internal_geometry_that_cannot_be_is_an_error() {
         ("{ elements: 20, diameter: 12 mm }", "do not fit"),
         ("{ length: 10 mm }", "`internal.length` is for rollers only"),
         ("{ contact_angle: 15 deg }", "`internal.contact_angle` is for"),
-        ("{ elements: 2 }", "outside 3 to 500"),
+        ("{ elements: 2 }", "write 3 to 500"),
     ]
     .into_iter()
     .enumerate()
@@ -277,6 +279,6 @@ fn misalignment_changes_a_rating_and_no_loss() {
         json("200 Nm", &[]),
         json("200 Nm", &["--set", "ratings.iso_16281.misalignment=15 arcmin"]),
     );
-    assert!(life(&tilted) < 0.9 * life(&straight), "{} {}", life(&tilted), life(&straight));
+    assert!(life(&tilted) < 0.95 * life(&straight), "{} {}", life(&tilted), life(&straight));
     assert_eq!(tilted["loss_w"], straight["loss_w"]);
 }
