@@ -212,3 +212,72 @@ analyses:
     }
     assert_eq!(of("bearings.B4", "C/P")["outside_share"], 0.25);
 }
+
+/// Arguments that explain the bearing B1 of the drive unit, which is another one, beside a catalogue of its own, in a folder of this name.
+fn with_bearing(name: &str, bearing: &str) -> Vec<String> {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("internal-geometry-{name}"));
+    std::fs::create_dir_all(&folder).unwrap();
+    let unit = std::fs::read_to_string(crate::common::file(UNIT)).unwrap();
+    let own = format!("{{ shaft: input, at: 0 mm, {bearing},");
+    let changed = unit
+        .replace("{ shaft: input,        at: 0 mm,    designation: \"6208\",", &own)
+        .replace("\nports:", "\ncatalogues: { bearings: own.csv }\nports:");
+    assert!(changed.contains(&own));
+    let catalogue = "designation,kind,bore [mm],outside [mm],c [N],c0 [N],internal.elements [-],internal.diameter [mm]\n\
+                     X1,deep_groove_ball,40,80,32500,19000,8,12.5\n";
+    std::fs::write(folder.join("own.csv"), catalogue).unwrap();
+    let map = crate::common::file("examples/electric-drive-unit/motor_map.csv");
+    std::fs::copy(map, folder.join("motor_map.csv")).unwrap();
+    std::fs::write(folder.join("gearbox.yaml"), changed).unwrap();
+    let path = folder.join("gearbox.yaml").to_str().unwrap().to_owned();
+    let args = ["explain", &path, "bearings.B1"].map(str::to_owned);
+    args.into_iter().chain(at("120 Nm", &[])).collect()
+}
+
+/// Ratings from the load distribution use the internal geometry of the file, of a catalogue, or an estimate, which they say.
+#[test]
+fn internal_geometry_is_stated_or_estimated() {
+    let explained = |name: &str, bearing: &str| {
+        let args = with_bearing(name, bearing);
+        out(&args.iter().map(String::as_str).collect::<Vec<_>>())
+    };
+    let estimated = explained("estimated", "designation: \"6208\"");
+    let note = "internal geometry is estimated";
+    assert!(estimated.contains(note) && estimated.contains("Z = 9 -"), "{estimated}");
+    let stated = explained("stated", "designation: \"6208\", internal: { elements: 8, diameter: 11 mm, clearance: 12 um }");
+    assert!(!stated.contains(note), "{stated}");
+    assert!(stated.contains("Z = 8 -") && stated.contains("D = 11 mm"), "{stated}");
+    let of_catalogue = explained("catalogue", "designation: X1");
+    assert!(!of_catalogue.contains(note), "{of_catalogue}");
+    assert!(of_catalogue.contains("Z = 8 -") && of_catalogue.contains("D = 12.5 mm"), "{of_catalogue}");
+}
+
+#[test]
+fn internal_geometry_that_cannot_be_is_an_error() {
+    for (number, (internal, reason)) in [
+        ("{ elements: 20, diameter: 12 mm }", "do not fit"),
+        ("{ length: 10 mm }", "`internal.length` is for rollers only"),
+        ("{ elements: 2 }", "write 3 to 500"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let args = with_bearing(&format!("wrong-{number}"), &format!("designation: \"6208\", internal: {internal}"));
+        let output = Command::cargo_bin("gearloss").unwrap().args(&args).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!output.status.success(), "{internal}");
+        assert!(text.contains(reason) && text.contains("B1"), "{internal}: {text}");
+    }
+}
+
+/// A bearing that is tilted or loose lives shorter; the losses are the same.
+#[test]
+fn misalignment_changes_a_rating_and_no_loss() {
+    let life = |value: &Value| quantity(value, "bearings.B3", "L10rh").unwrap()["value"].as_f64().unwrap();
+    let (straight, tilted) = (
+        json("200 Nm", &[]),
+        json("200 Nm", &["--set", "ratings.iso_16281.misalignment=15 arcmin"]),
+    );
+    assert!(life(&tilted) < 0.95 * life(&straight), "{} {}", life(&tilted), life(&straight));
+    assert_eq!(tilted["loss_w"], straight["loss_w"]);
+}

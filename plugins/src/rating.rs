@@ -5,6 +5,7 @@ pub mod equivalent_load;
 mod flank;
 pub mod flank_contact;
 pub mod flash_temperature;
+pub mod iso_16281;
 pub mod iso_281;
 pub mod iso_76;
 pub mod lip_seal;

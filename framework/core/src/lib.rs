@@ -81,13 +81,14 @@ pub mod mechanism;
 pub mod rating;
 mod registration;
 
-// What models and the solver calculate with: numbers, teeth, contacts, oils, motors.
+// What models and the solver calculate with: numbers, teeth, contacts, rolling bearings, oils, motors.
 pub mod contact;
 pub mod geometry;
 pub mod immersion;
 pub mod lubricant;
 pub mod motor;
 pub mod real;
+pub mod rolling;
 
 // The solver: speeds, torques, bearing loads, points, temperatures.
 pub mod evaluate;

@@ -10,7 +10,7 @@
 //! Basic lives agree with printed examples of SKF, FAG, NSK and Shigley; catalogues of SKF print nu1 from a diagram, about a sixth lower
 //! than the formula for medium speeds, and their a_SKF is another function.
 //! Without a stated fatigue load limit, Cu = C0/22 for balls and C0/8.2 for rollers, less above a mean diameter of 100 mm.
-//! Not included: internal clearance, misalignment and the load distribution in the bearing (ISO/TS 16281), oils with a density far from
+//! Not included: internal clearance, misalignment and the load distribution in the bearing (`iso_16281`), oils with a density far from
 //! 0.89 kg/l. Load above half of C is outside the range of the formula.
 
 use gearloss_framework::loss::Undefined;

@@ -11,6 +11,11 @@ use crate::real::{Dual, Lane, Points, Real};
 use crate::resolve::basic_designation;
 use crate::{answered_by, context};
 
+mod clearance_class;
+mod internal;
+
+pub use internal::{ElementMaterial, ElementRow, Elements, InternalGeometry};
+
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum Bearing {}
@@ -232,8 +237,10 @@ pub struct BearingEntry {
     pub limiting_speed: Option<f64>,
     /// Seals or shields of the bearing; default: from the designation, none. Only the model `skf` has their friction.
     pub seals: Option<BearingSeals>,
-    /// Class of the radial internal clearance; default: from the designation. For reports and other programs: no model depends on it.
+    /// Class of the radial internal clearance; default: from the designation. Estimates `internal.clearance`; no loss depends on it.
     pub clearance: Option<ClearanceClass>,
+    /// Internal geometry, for ratings from the load distribution; default: estimated from the boundary dimensions.
+    pub internal: Option<InternalGeometry>,
     /// Radius of the lowest point of the outer raceway. [mm]
     #[schemars(range(min = 0.5, max = 2500.0))]
     pub raceway: Option<f64>,
@@ -285,6 +292,10 @@ pub struct BearingPart {
     pub limiting_speed: Option<f64>,
     /// Seals or shields.
     pub seals: Option<BearingSeals>,
+    /// Class of the radial internal clearance, if known.
+    pub clearance: Option<ClearanceClass>,
+    /// Internal geometry as stated.
+    pub internal: Option<InternalGeometry>,
     /// Radius of the lowest point of the outer raceway. \[m\]
     pub raceway: f64,
     /// Separate oil height above the raceway's lowest point. \[m\]
@@ -482,7 +493,10 @@ impl TryFrom<BearingEntry> for BearingPart {
             designated.filter(|basic| kind == BearingKind::AngularContactBall && basic.kind == kind.name());
         let designated = designated.and_then(|basic| basic.contact_angle);
         let designated = designated.map(|degrees| f64::from(degrees).to_radians());
-        Ok(Self {
+        if let Some(fault) = entry.internal.as_ref().and_then(|internal| internal.fault(kind)) {
+            return Err(fault);
+        }
+        let part = Self {
             designation: entry.designation,
             kind,
             series: entry.series,
@@ -501,10 +515,16 @@ impl TryFrom<BearingEntry> for BearingPart {
             reference_speed: entry.reference_speed,
             limiting_speed: entry.limiting_speed,
             seals: entry.seals,
+            clearance: entry.clearance,
+            internal: entry.internal,
             raceway,
             oil_height: entry.oil_height,
             lubrication: entry.lubrication,
-        })
+        };
+        if part.internal.is_some() {
+            part.rolling_elements().map_err(std::borrow::Cow::into_owned)?;
+        }
+        Ok(part)
     }
 }
 

@@ -1,0 +1,35 @@
+//! Loads inside rolling bearings: contacts, the load of every rolling element, stiffness, pairs with preload.
+//!
+//! Sources: Hertz 1881 for the contacts; Sjoevall 1933, Jones 1960, Harris and ISO/TS 16281:2008 for the equilibrium of the ring, the
+//! latter as printed by a public program, whose tests state values of a commercial one. Each file names what it uses and how it was
+//! checked.
+//!
+//! The outer ring is at rest. A displacement of the inner ring, and the load that causes it, have five [`Axes`]: one axial, two radial, two
+//! tilts in the planes of the radial ones. A [`Row`] of elements gives the force at a displacement, and [`balance`] finds the displacement at a
+//! load: of [`Balls`], of [`Balls::at_speed`] and of [`Rollers`]. Lengths in m, forces in N, angles and tilts in rad.
+//!
+//! All of it is in `f64`: the number of steps of an equilibrium differs from point to point, so that lanes would not agree. Nothing
+//! allocates after a row is built.
+
+mod balls;
+mod elliptic;
+mod equilibrium;
+mod high_speed;
+mod many_elements;
+mod material;
+mod point_contact;
+mod preload;
+mod rollers;
+mod root;
+
+pub use balls::{BallGeometry, BallLoad, Balls};
+pub use equilibrium::{Axes, Equilibrium, Given, LocalForce, Row, Unbalanced, balance};
+pub use high_speed::{BallAtSpeed, BallMotion, BallsAtSpeed};
+pub use many_elements::{Contact, ManyElements, load_integral};
+pub use material::Material;
+pub use point_contact::{Ellipse, PointContact};
+pub use preload::{Arrangement, SharedThrust, Thermal, share_thrust, thrust_at};
+pub use rollers::{Profile, RollerGeometry, RollerLoad, Rollers};
+
+#[cfg(test)]
+mod tests;
