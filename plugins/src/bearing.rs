@@ -1,5 +1,6 @@
 //! Friction of rolling bearings.
 
+pub mod contact;
 pub mod harris;
 pub mod iso14179_1;
 pub mod iso14179_2;

@@ -77,11 +77,15 @@ pub struct Oil<R = f64> {
     pub mu_ehl: R,
     /// Lubricant factor of mean mesh friction.
     pub x_l: R,
+    /// Eyring stress; zero if none is stated. \[Pa\]
+    pub tau0: R,
+    /// Slope of the limiting stress over pressure; zero if none is stated.
+    pub limiting_slope: R,
 }
 
 impl<R: Copy> Oil<R> {
     /// All properties, in a fixed order.
-    pub(crate) fn properties(&self) -> [R; 11] {
+    pub(crate) fn properties(&self) -> [R; 13] {
         [
             self.temperature,
             self.nu,
@@ -94,11 +98,13 @@ impl<R: Copy> Oil<R> {
             self.mu_bl,
             self.mu_ehl,
             self.x_l,
+            self.tau0,
+            self.limiting_slope,
         ]
     }
 
     /// The oil with these properties, in the order of [`Oil::properties`].
-    pub(crate) fn of_properties(properties: [R; 11]) -> Self {
+    pub(crate) fn of_properties(properties: [R; 13]) -> Self {
         let [
             temperature,
             nu,
@@ -111,6 +117,8 @@ impl<R: Copy> Oil<R> {
             mu_bl,
             mu_ehl,
             x_l,
+            tau0,
+            limiting_slope,
         ] = properties;
         Self {
             temperature,
@@ -124,6 +132,8 @@ impl<R: Copy> Oil<R> {
             mu_bl,
             mu_ehl,
             x_l,
+            tau0,
+            limiting_slope,
         }
     }
 }

@@ -390,6 +390,8 @@ impl Lubricant {
             mu_bl: self.mu_bl,
             mu_ehl: self.mu_ehl,
             x_l: self.x_l,
+            tau0: self.rheology.tau0.unwrap_or(0.0),
+            limiting_slope: self.rheology.limiting_slope.unwrap_or(0.0),
         }
     }
 }

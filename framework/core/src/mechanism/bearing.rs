@@ -553,6 +553,16 @@ context! {
         mu_bl: 0.0 in 0.0..=0.3 from "`mu_bl` of the oil",
         /// Coefficient of full-film friction of ball bearings stated for the oil. [-]
         mu_ehl: 0.05 in 0.001..=0.2 from "`mu_ehl` of the oil, or its kind",
+        /// Pressure-viscosity coefficient of the oil. [1/GPa]
+        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
+        /// Relative decrease of the viscosity with temperature. [1/K]
+        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
+        /// Thermal conductivity of the oil. [W/(m K)]
+        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
+        /// Eyring stress stated for the oil; zero if none is stated. [MPa]
+        tau0: 5.0 in 0.0..=50.0 from "`tau0` in `rheology` of the oil",
+        /// Slope of the limiting shear stress over pressure stated for the oil; zero if none is stated. [-]
+        limiting_slope: 0.06 in 0.0..=0.2 from "`limiting_slope` in `rheology` of the oil",
     }
 }
 
@@ -596,6 +606,11 @@ impl Component for Bearing {
                 .map_or_else(|| site.level.over_bottom(part.raceway), R::constant),
             mu_bl: oil.mu_bl,
             mu_ehl: oil.mu_ehl,
+            alpha: oil.alpha,
+            beta: oil.beta,
+            conductivity: oil.conductivity,
+            tau0: oil.tau0,
+            limiting_slope: oil.limiting_slope,
             notes,
         }
     }

@@ -95,7 +95,7 @@ impl Balls {
 
 impl BallsAtSpeed<'_> {
     /// Motion of a ball with contacts in these directions, sine and cosine of the contact angles.
-    fn motion(&self, [inner, outer]: [[f64; 2]; 2]) -> BallMotion {
+    pub fn motion(&self, [inner, outer]: [[f64; 2]; 2]) -> BallMotion {
         let geometry = self.balls.geometry();
         let ratio = geometry.diameter / geometry.pitch_diameter;
         let axis = {

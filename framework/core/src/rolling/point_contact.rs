@@ -77,6 +77,11 @@ impl PointContact {
         self.ratio
     }
 
+    /// Complete elliptic integral of the second kind of the ellipse.
+    pub fn second_integral(&self) -> f64 {
+        self.integrals.second
+    }
+
     /// The contact under a load; without load a point.
     pub fn under(&self, load: f64) -> Ellipse {
         if load <= 0.0 {
