@@ -1,8 +1,9 @@
-//! Friction of rolling bearings.
+//! Friction of bearings.
 
 pub mod harris;
 pub mod iso14179_1;
 pub mod iso14179_2;
+pub mod journal_film;
 mod palmgren;
 mod rows;
 pub mod schaeffler;
@@ -11,3 +12,4 @@ pub mod skf_seal;
 #[cfg(test)]
 mod testing;
 pub mod timken;
+pub mod washer_gap;
