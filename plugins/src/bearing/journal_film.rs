@@ -1,8 +1,10 @@
 //! Plain journal bearings: the hydrodynamic film between a shaft and a bush.
 //!
 //! Source: the method of DIN 31652-1:1983 and ISO 7902-1:1998, quoted from memory, with own solutions of its equations. With the relative
-//! clearance psi, D = `bore`, B = `width`: So = F psi^2/(D B eta w) gives eps (see `characteristics.rs`); h_min = D psi (1 - eps)/2;
-//! M = (mu/psi) psi F D/2 with mu/psi = pi/(So sqrt(1 - eps^2)) + eps/2 sin(beta), beta the attitude angle; Q3 = D^3 psi w q(eps).
+//! clearance psi, D = `bore`, B = `width`, x = B/D: So = F psi^2/(D B eta w) = x^2 a1 e^p/2 eps/(1 - eps)
+//! sqrt(pi^2 (1 - eps^2) + 16 eps^2)/((1 + eps)^2 (a2 - eps)) gives the eccentricity eps; h_min = D psi (1 - eps)/2; M = (mu/psi) psi F D/2 with
+//! mu/psi = pi/(So sqrt(1 - eps^2)) + eps/2 sin(beta), beta = b(eps) atan(pi sqrt(1 - eps^2)/(2 eps)); Q3 = D^3 psi w eps q(eps). a1, a2, p, b and
+//! q are polynomials in x and eps: those of the `fit`.
 //! Without load that is Petroff's moment, which is the term `concentric`; `eccentric` is the rest of the film's.
 //! The film has the temperature of the oil at the bearing. With `conductance` it has the temperature T at which it gives off its loss,
 //! P = k (T - T_s) + 2 rho c Q3 (T - T_in), the last term if it is fed: its oil enters at T_in and leaves as much above T as it entered below;
@@ -27,7 +29,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use characteristics::DIN_WIDEST;
-pub use characteristics::Fit;
+pub use characteristics::FilmFit;
 pub use film::{Film, Journal};
 
 terms! {
@@ -53,7 +55,7 @@ observed! {
 pub struct JournalFilm {
     /// Approximation of load, attitude angle and side flow over the eccentricity.
     #[serde(default)]
-    pub fit: Fit,
+    pub fit: FilmFit,
 }
 
 fn prepare(params: JournalFilm, cx: &mut Build<'_>) -> Result<Journal, Diagnostic> {
@@ -63,7 +65,7 @@ fn prepare(params: JournalFilm, cx: &mut Build<'_>) -> Result<Journal, Diagnosti
             .help("write `kind: plain` and `film:` in the bearing, or give it another model")
     })?;
     let width = journal.width / journal.diameter;
-    if params.fit == Fit::Din31652 && width > DIN_WIDEST {
+    if params.fit == FilmFit::Din31652 && width > DIN_WIDEST {
         return Err(cx
             .error(format!(
                 "the fit of DIN 31652 as quoted from memory is wrong for bearings wider than their diameter; this one has B/D {width:.3}"
@@ -223,7 +225,7 @@ mod tests {
             (to.speed, to.radial) = (speed * RPM, load);
             (to.temperature, to.nu, to.rho, to.beta) = (60.0, 20e-6, 870.0, 0.039);
         });
-        let journal = Journal::of(part, Fit::Reynolds).unwrap();
+        let journal = Journal::of(part, FilmFit::Reynolds).unwrap();
         Ok((journal.film(&at)?, BearingLaw::loss(&journal, &at)?))
     }
 
@@ -256,7 +258,7 @@ mod tests {
     fn a_film_too_hot_for_any_oil_is_undefined() {
         let part = part(0.5, |film| film.conductance = Some(1e-3));
         let at = BearingAt::usual(&part, Notes::MUTED).with(|to| (to.speed, to.radial) = (1e3, 1e4));
-        let undefined = Journal::of(&part, Fit::Reynolds).unwrap().film(&at).unwrap_err();
+        let undefined = Journal::of(&part, FilmFit::Reynolds).unwrap().film(&at).unwrap_err();
         assert!(undefined.what.contains("conductance"));
     }
 
@@ -266,7 +268,7 @@ mod tests {
             let part = part(0.5, |film| film.load_fixed_in_space = fixed);
             let at = BearingAt::usual(&part, Notes::MUTED)
                 .with(|to| (to.speed, to.outer_speed, to.radial) = (50.0, outer_speed, 2000.0));
-            Journal::of(&part, Fit::Reynolds).unwrap().film(&at).unwrap()
+            Journal::of(&part, FilmFit::Reynolds).unwrap().film(&at).unwrap()
         };
         let (planet, coaxial) = (film(false, 30.0), film(true, 30.0));
         assert_close(planet.sommerfeld / coaxial.sommerfeld, 110.0 / 50.0, 1e-12);

@@ -14,7 +14,7 @@ use gearloss_framework::registry::{Check, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::bearing::journal_film::{Fit, Journal};
+use crate::bearing::journal_film::{FilmFit, Journal};
 
 const PRESSURE: Figure = Figure::greatest("p", "MPa", "specific load");
 const THICKNESS: Figure = Figure::least("h_min", "um", "minimum film thickness").detail();
@@ -40,7 +40,7 @@ pub struct PlainBearing {
     pub greatest_temperature: Option<f64>,
     /// Approximation of the film, as in the model `journal_film`.
     #[serde(default)]
-    pub fit: Fit,
+    pub fit: FilmFit,
 }
 
 fn least_ratio() -> f64 {
@@ -73,6 +73,7 @@ impl Rating<Bearing> for PlainBearing {
 
 register_rating!(Bearing, "plain_bearing", PlainBearing,
     source: "DIN 31652-3:1983; ISO 7902-3:1998",
+    part: "{ kind: plain, bore: 60 mm, width: 30 mm, film: { relative_clearance: 0.0015, least_thickness: 3 um, conductance: 40 W/K, fed: true } }",
     evidence: [
         formula(Evidence::Derived, "definitions, with the film of the model `journal_film`"),
         default_of("least_ratio", Evidence::Derived, "definition of the limit that the bearing states"),

@@ -8,12 +8,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use gearloss_framework::real::Real;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Approximation of the solution of the Reynolds equation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Fit {
+pub enum FilmFit {
     /// Own fit of an own numerical solution: within 0.9 % of its load, 0.3 deg of its angle and 0.3 % of its flow for B/D of 0.25 to 1.5 and
     /// eccentricities of 0.05 to 0.95.
     #[default]
@@ -70,6 +70,8 @@ pub struct Characteristics {
     factor: f64,
     end: f64,
     load: [f64; 5],
+    /// ln(g/factor) without load.
+    centre: f64,
     /// beta = angle(eps) atan(pi sqrt(1 - eps^2)/(2 eps)).
     angle: [f64; 5],
     /// Q3/(D^3 psi w) = eps flow(eps).
@@ -106,35 +108,38 @@ impl<R: Real> Place<R> {
 impl Characteristics {
     /// The functions of a bearing with a width over its diameter. Narrower than the fit, load and flow follow those of infinitely narrow
     /// bearings, x^2 and x; wider, those of the widest one.
-    pub fn new(fit: Fit, width: f64) -> Self {
+    pub fn new(fit: FilmFit, width: f64) -> Self {
         let (narrowest, widest) = match fit {
-            Fit::Reynolds => (0.2, 1.75),
-            Fit::Din31652 => (0.25, DIN_WIDEST),
+            FilmFit::Reynolds => (0.2, 1.75),
+            FilmFit::Din31652 => (0.25, DIN_WIDEST),
         };
         let x = width.min(widest);
         let held = x.max(narrowest);
         let of_width = |coefficients: &[f64]| polynomial(coefficients, held);
         let (a1, load, angle, flow) = match fit {
-            Fit::Reynolds => (
+            FilmFit::Reynolds => (
                 1.0,
                 LOAD.map(|row| of_width(&row)),
                 ANGLE.map(|row| of_width(&row)),
                 FLOW.map(|row| x * of_width(&row)),
             ),
-            Fit::Din31652 => (
+            FilmFit::Din31652 => (
                 of_width(&DIN_FACTOR),
                 [0.0; 5],
                 DIN_ANGLE.map(|row| of_width(&row)),
                 [0.25 * x * (1.0 - 0.223 * held * held), 0.0, 0.0],
             ),
         };
-        Self {
+        let mut functions = Self {
             factor: 0.5 * x * x * a1,
             end: of_width(&END),
             load,
+            centre: 0.0,
             angle,
             flow,
-        }
+        };
+        functions.centre = functions.shape(&Place::new(0.0)).0;
+        functions
     }
 
     /// ln(g/factor) and its derivative by eps.
@@ -159,14 +164,12 @@ impl Characteristics {
     /// root from v = 0 in a few steps. The last step also makes the derivatives those of the implicit function.
     #[inline(always)]
     pub fn place<R: Real>(&self, sommerfeld: R) -> Place<R> {
-        let centre = Place::new(R::ZERO);
-        let (at_centre, _) = self.shape(&centre);
-        let ratio = sommerfeld / at_centre.exp() / self.factor;
+        let ratio = sommerfeld / (self.centre.exp() * self.factor);
         let mut v = R::ZERO;
         let mut place = Place::new(ratio);
         for _ in 0..STEPS {
             let (logarithm, slope) = self.shape(&place);
-            v -= (v + logarithm - at_centre) / (place.eccentricity * place.room * slope + 1.0);
+            v -= (v + logarithm - self.centre) / (place.eccentricity * place.room * slope + 1.0);
             place = Place::new(ratio * v.exp());
         }
         place
@@ -237,7 +240,7 @@ mod tests {
     #[test]
     fn the_fit_of_din_31652() {
         for (width, expected) in [(1.0, [1.29702, 50.849, 3.26036]), (0.5, [0.492_140, 48.635, 8.20457])] {
-            let found = values(&Characteristics::new(Fit::Din31652, width), 0.6);
+            let found = values(&Characteristics::new(FilmFit::Din31652, width), 0.6);
             for (value, expected) in found.iter().zip(expected) {
                 close(*value, expected, 1e-5);
             }
@@ -266,7 +269,7 @@ mod tests {
     #[test]
     fn the_own_fit_follows_the_own_solution() {
         for [width, eccentricity, load, angle, friction, flow] in SOLVED {
-            let [so, beta, mu, q] = values(&Characteristics::new(Fit::Reynolds, width), eccentricity);
+            let [so, beta, mu, q] = values(&Characteristics::new(FilmFit::Reynolds, width), eccentricity);
             close(so, load, 0.009);
             assert!((beta - angle).abs() < 0.3, "{beta} against {angle}");
             close(mu, friction, 0.007);
@@ -320,7 +323,7 @@ mod tests {
             );
             // The error falls with the square of the step.
             let [load, tangent] = std::array::from_fn(|k| fine[k] + (fine[k] - coarse[k]) / 3.0);
-            let [so, beta, ..] = values(&Characteristics::new(Fit::Reynolds, width), eccentricity);
+            let [so, beta, ..] = values(&Characteristics::new(FilmFit::Reynolds, width), eccentricity);
             close(so, load, 0.009);
             assert!((beta - tangent.atan().to_degrees()).abs() < 0.3, "{beta}");
         }
@@ -330,7 +333,7 @@ mod tests {
     #[test]
     fn the_fit_of_din_31652_follows_the_own_solution_up_to_a_width_of_the_diameter() {
         for [width, eccentricity, load, angle, friction, flow] in SOLVED.iter().filter(|row| row[0] <= DIN_WIDEST) {
-            let [so, beta, mu, q] = values(&Characteristics::new(Fit::Din31652, *width), *eccentricity);
+            let [so, beta, mu, q] = values(&Characteristics::new(FilmFit::Din31652, *width), *eccentricity);
             close(so, *load, 0.10);
             assert!((beta - angle).abs() < 2.5, "{beta} against {angle}");
             close(mu, *friction, 0.11);
@@ -356,7 +359,7 @@ mod tests {
             [0.5, 0.6, 0.319, 8.10],
             [0.5, 0.9, 0.0313, 1.60],
         ] {
-            let [so, _, mu, _] = values(&Characteristics::new(Fit::Reynolds, width), eccentricity);
+            let [so, _, mu, _] = values(&Characteristics::new(FilmFit::Reynolds, width), eccentricity);
             close(1.0 / (2.0 * PI * so), s, 0.009);
             close(mu, f, 0.009);
         }
@@ -370,7 +373,7 @@ mod tests {
             let width = 0.02;
             let narrow =
                 width * width * eccentricity / (2.0 * (1.0 - e2).powi(2)) * (PI * PI * (1.0 - e2) + 16.0 * e2).sqrt();
-            let [so, ..] = values(&Characteristics::new(Fit::Reynolds, width), eccentricity);
+            let [so, ..] = values(&Characteristics::new(FilmFit::Reynolds, width), eccentricity);
             // The shape is held at B/D = 0.2, where the pressure flow along the circumference matters by as much.
             close(so, narrow, 0.07);
         }
@@ -381,7 +384,7 @@ mod tests {
         fn the_load_is_carried_at_the_place_that_is_found(
             exponent in -8.0..12.0_f64, width in 0.05..3.0_f64, din in any::<bool>()
         ) {
-            let fit = if din { Fit::Din31652 } else { Fit::Reynolds };
+            let fit = if din { FilmFit::Din31652 } else { FilmFit::Reynolds };
             let functions = Characteristics::new(fit, width);
             let wanted = 10.0_f64.powf(exponent);
             let place = functions.place(wanted);
@@ -396,7 +399,7 @@ mod tests {
 
         #[test]
         fn a_higher_load_leaves_a_thinner_film(exponent in -6.0..8.0_f64, width in 0.05..3.0_f64) {
-            let functions = Characteristics::new(Fit::Reynolds, width);
+            let functions = Characteristics::new(FilmFit::Reynolds, width);
             let room = |so: f64| functions.place(so).room;
             prop_assert!(room(1.01 * 10.0_f64.powf(exponent)) < room(10.0_f64.powf(exponent)));
         }
@@ -404,7 +407,7 @@ mod tests {
 
     #[test]
     fn without_load_the_shaft_is_in_the_middle() {
-        let place = Characteristics::new(Fit::Reynolds, 0.5).place(Dual::variable(0.0, 0));
+        let place = Characteristics::new(FilmFit::Reynolds, 0.5).place(Dual::variable(0.0, 0));
         assert_eq!((place.eccentricity.value, place.room.value), (0.0, 1.0));
         assert!(place.eccentricity.slopes[0] > 0.0 && place.eccentricity.at_point(0) == 0.0);
     }

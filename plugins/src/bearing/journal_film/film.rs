@@ -7,7 +7,7 @@ use gearloss_framework::mechanism::ShopUnits as _;
 use gearloss_framework::mechanism::bearing::{BearingAt, BearingKind, BearingPart};
 use gearloss_framework::real::{Mask as _, Real};
 
-use super::characteristics::{Characteristics, Fit, Place};
+use super::characteristics::{Characteristics, FilmFit, Place};
 
 /// Coefficient of friction of surfaces without a film, if none is stated.
 const SOLID_FRICTION: f64 = 0.1;
@@ -15,10 +15,10 @@ const SOLID_FRICTION: f64 = 0.1;
 const OIL_HEAT: f64 = 1.8e6;
 /// Temperature at which the search for a balance ends; no oil lasts there. \[degC\]
 const HOTTEST: f64 = 400.0;
-/// Steps of bisection and of Newton's method of that search: the former leave 2e-5 K, two of the latter all digits and the derivatives of the
-/// implicit function.
-const BISECTIONS: usize = 24;
-const REFINEMENTS: usize = 2;
+/// Steps of bisection and of Newton's method of that search: the former leave 0.1 K, the latter 1e-5 K, 1e-11 K, then all digits, with the derivatives
+/// of the implicit function.
+const BISECTIONS: usize = 12;
+const REFINEMENTS: usize = 3;
 /// Step of its central differences; they have ten digits, as the oil changes by a factor over tens of K. \[K\]
 const STEP: f64 = 1e-3;
 /// Viscosity at which the line of Walther ends. \[mm2/s\]
@@ -96,7 +96,7 @@ impl<R: Real> Film<R> {
 
 impl Journal {
     /// A plain bearing; `None` for other bearings.
-    pub fn of(part: &BearingPart, fit: Fit) -> Option<Self> {
+    pub fn of(part: &BearingPart, fit: FilmFit) -> Option<Self> {
         let (BearingKind::Plain, Some(film), Some(width)) = (part.kind, part.film, part.width) else {
             return None;
         };
