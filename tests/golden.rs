@@ -12,7 +12,7 @@ use gearloss_studies::analyses::progress::Silent;
 use gearloss_studies::checked_study::CheckedStudy;
 
 /// Cases of more than one mistake.
-const SEVERAL: [&str; 11] = [
+const SEVERAL: [&str; 12] = [
     "anchors",
     "boolean_traps",
     "dangling_id",
@@ -23,6 +23,7 @@ const SEVERAL: [&str; 11] = [
     "number_as_text",
     "out_of_range",
     "over_determined",
+    "plain_bearing_faults",
     "two_locating_bearings",
 ];
 

@@ -50,6 +50,7 @@ mod oils;
 mod optimise;
 mod peers;
 mod performance;
+mod plain_bearings;
 mod planetary;
 mod program;
 mod ratings;

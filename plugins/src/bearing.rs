@@ -1,9 +1,10 @@
-//! Friction of rolling bearings.
+//! Friction of bearings.
 
 pub mod contact;
 pub mod harris;
 pub mod iso14179_1;
 pub mod iso14179_2;
+pub mod journal_film;
 mod palmgren;
 mod rows;
 pub mod schaeffler;
@@ -12,3 +13,4 @@ pub mod skf_seal;
 #[cfg(test)]
 mod testing;
 pub mod timken;
+pub mod washer_gap;

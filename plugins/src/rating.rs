@@ -10,6 +10,7 @@ pub mod iso_281;
 pub mod iso_76;
 pub mod lip_seal;
 pub mod minimum_load;
+pub mod plain_bearing;
 
 use gearloss_framework::rating::Bound;
 

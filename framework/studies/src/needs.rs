@@ -8,8 +8,8 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::{DRAGS, HELD, Language};
 use gearloss_framework::mechanism::Mechanism as _;
-use gearloss_framework::mechanism::bearing::Bearing;
-use gearloss_framework::registry::{Entry, Files, MechanismEntry};
+use gearloss_framework::mechanism::bearing::{Bearing, BearingPart};
+use gearloss_framework::registry::{Entry, Files, MechanismEntry, from_resolved};
 use gearloss_framework::resolve::{CatalogueTable, Choice, Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
 use serde_json::{Map, Value};
@@ -67,7 +67,7 @@ pub struct BearingNeeds {
     pub lacks: Vec<(String, Vec<String>)>,
 }
 
-/// What each linked model of bearing losses lacks in a catalogue. The models are built for the bearings, one of each kind, series and set
+/// What each linked model of the losses of rolling bearings lacks in a catalogue. The models are built for the bearings, one of each kind, series and set
 /// of keys; bearings without a kind are not considered.
 ///
 /// # Errors
@@ -97,7 +97,11 @@ pub fn bearing_needs(language: &Language, table: &CatalogueTable) -> Result<Vec<
         .models(Bearing::KEY)
         .filter(|entry| !entry.is_user_defined() && entry.name != "none")
     {
-        let (model, _) = language.example_of(entry)?;
+        let (model, example) = language.example_of(entry)?;
+        // A catalogue has rolling bearings only.
+        if from_resolved::<BearingPart>(&example).is_ok_and(|part| !part.kind.rolls()) {
+            continue;
+        }
         let files = Files::default();
         for (name, text) in entry.files {
             files.put(name, text);

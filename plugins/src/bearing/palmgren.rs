@@ -11,7 +11,7 @@ use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::registry::Build;
 use gearloss_framework::{coefficients, limits, observed, terms};
 
-use super::rows::{Lack, LoadLaw};
+use super::rows::{Lack, LoadLaw, sliding};
 
 terms! {
     pub LOAD = load("load");
@@ -107,7 +107,13 @@ pub fn of_part(
     cx: &Build<'_>,
     model: impl FnOnce(&BearingPart) -> Result<Palmgren, Lack>,
 ) -> Result<Palmgren, Diagnostic> {
-    model(cx.own_part::<Bearing>()?).map_err(|(message, help)| cx.error(message).help(help))
+    let part = cx.own_part::<Bearing>()?;
+    let model = if part.kind.rolls() {
+        model(part)
+    } else {
+        Err(sliding(part))
+    };
+    model.map_err(|(message, help)| cx.error(message).help(help))
 }
 
 /// True for rollers that carry axial load on flanges.

@@ -151,6 +151,18 @@ fn no_series(part: &BearingPart, what: &str, known: &str) -> Lack {
     }
 }
 
+/// Why a model of rolling bearings refuses one without rolling elements.
+pub fn sliding(part: &BearingPart) -> Lack {
+    let model = match part.kind {
+        BearingKind::ThrustWasher => "washer_gap",
+        _ => "journal_film",
+    };
+    (
+        format!("this model applies to rolling bearings, not to `{}`", part.kind.name()),
+        format!("give this bearing its own model: `model: {{ type: {model} }}`"),
+    )
+}
+
 /// f0 of the load-independent moment.
 ///
 /// # Errors
@@ -183,7 +195,7 @@ pub fn f0_under(part: &BearingPart, lubrication: Lubrication) -> Result<f64, Lac
         K::CylindricalRollerThrust => [one(9.0), None, one(3.5), one(8.0)],
         K::NeedleRollerThrust => [one(14.0), None, one(5.0), one(11.0)],
         K::SphericalRollerThrust => [None, None, Some((2.5, 5.0)), Some((5.0, 10.0))],
-        K::ToroidalRoller | K::ToroidalRollerFullComplement => [None; 4],
+        K::ToroidalRoller | K::ToroidalRollerFullComplement | K::Plain | K::ThrustWasher => [None; 4],
     };
     let (cell, lubrication) = match lubrication {
         Lubrication::Grease => (grease, "grease"),
@@ -271,6 +283,7 @@ pub fn load_law(part: &BearingPart, exponent: f64, axial_factor: f64, z_given: b
                 "give this bearing its own model, such as `model: { type: skf }`".to_owned(),
             ));
         }
+        K::Plain | K::ThrustWasher => return Err(sliding(part)),
         K::CylindricalRollerThrust | K::NeedleRollerThrust => LoadLaw::new(0.0015, 0.0, Rule::Thrust),
         K::SphericalRollerThrust => {
             let z = match name {

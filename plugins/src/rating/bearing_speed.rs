@@ -35,6 +35,10 @@ fn greatest_ratio() -> f64 {
 
 impl Rating<Bearing> for BearingSpeed {
     fn rate(&self, at: &BearingAt<'_>, to: &mut Rated) -> Result<(), Undefined> {
+        if !at.part.kind.rolls() {
+            at.branch("no rolling elements: no speed of a catalogue");
+            return Ok(());
+        }
         let n = at.show("n", "1/min", at.speed.rpm().abs());
         let factor = at.show("n d_m", "mm/min", n * at.part.mean_diameter().mm());
         to.add_bounded(

@@ -123,6 +123,7 @@ pub fn factors(part: &BearingPart, axial: f64, f0: f64) -> Option<Factors> {
             Some(single_row(-1.0, 1.0, 0.0))
         }
         BearingKind::SphericalRollerThrust => Some(single_row(-1.0, 0.88, 0.88 * 1.2)),
+        BearingKind::Plain | BearingKind::ThrustWasher => None,
     }
 }
 

@@ -57,7 +57,9 @@ fn minimum(at: &BearingAt<'_>) -> Option<f64> {
         BearingKind::ThrustBall
         | BearingKind::CylindricalRollerThrust
         | BearingKind::NeedleRollerThrust
-        | BearingKind::SphericalRollerThrust => None,
+        | BearingKind::SphericalRollerThrust
+        | BearingKind::Plain
+        | BearingKind::ThrustWasher => None,
     }
 }
 

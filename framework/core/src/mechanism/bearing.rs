@@ -1,4 +1,6 @@
-//! Friction of rolling bearings.
+//! Friction of bearings: rolling bearings, plain bearings, thrust washers.
+
+mod film;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,13 +16,14 @@ use crate::{answered_by, context};
 mod clearance_class;
 mod internal;
 
+pub use film::BearingFilm;
 pub use internal::{ElementMaterial, ElementRow, Elements, InternalGeometry};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum Bearing {}
 
-/// Friction of one rolling bearing. A model returns moments about the bearing's axis.
+/// Friction of one bearing. A model returns moments about the bearing's axis.
 ///
 /// The inputs are [`BearingAt`], which documents each quantity with unit, source and tested range, and the part in it.
 pub trait BearingModel: Send + Sync {
@@ -66,7 +69,7 @@ impl<L: BearingLaw> BearingModel for L {
     }
 }
 
-/// Kind of a rolling bearing.
+/// Kind of a bearing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum BearingKind {
@@ -104,6 +107,10 @@ pub enum BearingKind {
     NeedleRollerThrust,
     /// Spherical roller thrust bearing.
     SphericalRollerThrust,
+    /// Plain journal bearing: a shaft in a bush, with oil between them.
+    Plain,
+    /// Thrust washer or thrust pads: plane faces with oil between them.
+    ThrustWasher,
 }
 
 /// Lubrication of a bearing.
@@ -181,7 +188,7 @@ pub enum ClearanceClass {
     C5,
 }
 
-/// A rolling bearing as written; omitted keys come from the catalogue by `designation`.
+/// A bearing as written; omitted keys come from the catalogue by `designation`.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct BearingEntry {
     /// Designation in a bearing catalogue; fills the omitted keys.
@@ -191,13 +198,15 @@ pub struct BearingEntry {
     pub kind: Option<BearingKind>,
     /// Dimension series, as in the tables of the loss models.
     pub series: Option<String>,
-    /// Bore diameter; inside diameter of the raceway for a needle roller and cage assembly. [mm]
+    /// Bore diameter; inside diameter of the raceway for a needle roller and cage assembly, of the running surface for a plain bearing or a
+    /// thrust washer. [mm]
     #[schemars(range(min = 0.5, max = 3000.0))]
     pub bore: Option<f64>,
-    /// Outside diameter; outside diameter of the raceway for a needle roller and cage assembly. [mm]
+    /// Outside diameter; outside diameter of the raceway for a needle roller and cage assembly, of the running surface for a thrust washer. Not
+    /// needed for a plain bearing. [mm]
     #[schemars(range(min = 1.0, max = 5000.0))]
     pub outside: Option<f64>,
-    /// Width; total width of a tapered roller bearing. [mm]
+    /// Width; total width of a tapered roller bearing, of the running surface for a plain bearing. [mm]
     #[schemars(range(min = 0.5, max = 2000.0))]
     pub width: Option<f64>,
     /// Basic static load rating. [N]
@@ -250,9 +259,11 @@ pub struct BearingEntry {
     /// Lubrication.
     #[serde(default)]
     pub lubrication: Lubrication,
+    /// Oil film of a plain bearing or a thrust washer.
+    pub film: Option<BearingFilm>,
 }
 
-/// A rolling bearing, complete. Lengths in m, loads in N.
+/// A bearing, complete. Lengths in m, loads in N.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(try_from = "BearingEntry")]
 pub struct BearingPart {
@@ -264,7 +275,7 @@ pub struct BearingPart {
     pub series: Option<String>,
     /// Bore diameter d. \[m\]
     pub bore: f64,
-    /// Outside diameter D. \[m\]
+    /// Outside diameter D; that of the bore if a plain bearing states none. \[m\]
     pub outside: f64,
     /// Width B. \[m\]
     pub width: Option<f64>,
@@ -302,6 +313,9 @@ pub struct BearingPart {
     pub oil_height: Option<f64>,
     /// Lubrication.
     pub lubrication: Lubrication,
+    /// Oil film; of plain bearings, with a relative clearance and the film thickness at which the surfaces touch, and of thrust washers, with
+    /// a gap.
+    pub film: Option<BearingFilm>,
 }
 
 impl BearingPart {
@@ -351,9 +365,10 @@ impl BearingPart {
             }
         };
         let thrust = match self.kind {
-            BearingKind::NeedleCage | BearingKind::ToroidalRoller | BearingKind::ToroidalRollerFullComplement => {
-                Thrust::None
-            }
+            BearingKind::NeedleCage
+            | BearingKind::ToroidalRoller
+            | BearingKind::ToroidalRollerFullComplement
+            | BearingKind::Plain => Thrust::None,
             BearingKind::CylindricalRoller | BearingKind::CylindricalRollerFullComplement => match () {
                 () if begins(&["NNCF", "NCF", "NJ", "NF"]) => Thrust::OneDirection,
                 () if begins(&[
@@ -364,7 +379,9 @@ impl BearingPart {
                 }
                 () => Thrust::Both,
             },
-            BearingKind::AngularContactBall | BearingKind::TaperedRoller => Thrust::OneDirection,
+            BearingKind::AngularContactBall | BearingKind::TaperedRoller | BearingKind::ThrustWasher => {
+                Thrust::OneDirection
+            }
             BearingKind::ThrustBall
             | BearingKind::CylindricalRollerThrust
             | BearingKind::NeedleRollerThrust
@@ -403,7 +420,7 @@ impl BearingPart {
 }
 
 impl BearingKind {
-    /// True if its rolling elements are balls, with contact in points; the others have rollers, with contact in lines.
+    /// True if its rolling elements are balls, with contact in points; other rolling bearings have rollers, with contact in lines.
     pub fn has_balls(self) -> bool {
         match self {
             Self::DeepGrooveBall
@@ -422,7 +439,9 @@ impl BearingKind {
             | Self::ToroidalRollerFullComplement
             | Self::CylindricalRollerThrust
             | Self::NeedleRollerThrust
-            | Self::SphericalRollerThrust => false,
+            | Self::SphericalRollerThrust
+            | Self::Plain
+            | Self::ThrustWasher => false,
         }
     }
 
@@ -440,8 +459,17 @@ impl BearingKind {
     pub fn is_thrust(self) -> bool {
         matches!(
             self,
-            Self::ThrustBall | Self::CylindricalRollerThrust | Self::NeedleRollerThrust | Self::SphericalRollerThrust
+            Self::ThrustBall
+                | Self::CylindricalRollerThrust
+                | Self::NeedleRollerThrust
+                | Self::SphericalRollerThrust
+                | Self::ThrustWasher
         )
+    }
+
+    /// True if it has rolling elements.
+    pub fn rolls(self) -> bool {
+        !matches!(self, Self::Plain | Self::ThrustWasher)
     }
 }
 
@@ -466,8 +494,11 @@ impl TryFrom<BearingEntry> for BearingPart {
         };
         let kind = entry.kind.ok_or_else(|| missing("kind"))?;
         let bore = entry.bore.ok_or_else(|| missing("bore"))?;
-        let outside = entry.outside.ok_or_else(|| missing("outside"))?;
-        if outside <= bore {
+        let outside = match entry.outside {
+            None if kind == BearingKind::Plain => bore,
+            outside => outside.ok_or_else(|| missing("outside"))?,
+        };
+        if outside <= bore && entry.outside.is_some() {
             return Err(format!(
                 "outside {} mm does not exceed bore {} mm: swap them or correct one",
                 outside * 1e3,
@@ -478,6 +509,7 @@ impl TryFrom<BearingEntry> for BearingPart {
         // (d_m + D_w)/2; for tapered and needle roller bearings it is at half the outside diameter.
         let raceway = entry.raceway.unwrap_or(match kind {
             BearingKind::TaperedRoller | BearingKind::NeedleCage => 0.5 * outside,
+            BearingKind::Plain => 0.5 * bore,
             _ => 0.25 * (bore + outside) + 0.15 * (outside - bore),
         });
         if !(0.5 * bore..=0.5 * outside).contains(&raceway) {
@@ -488,6 +520,7 @@ impl TryFrom<BearingEntry> for BearingPart {
                 0.5e3 * outside
             ));
         }
+        let film = film::checked(&entry, kind, bore)?;
         let designated = entry.designation.as_deref().and_then(basic_designation);
         let designated =
             designated.filter(|basic| kind == BearingKind::AngularContactBall && basic.kind == kind.name());
@@ -520,6 +553,7 @@ impl TryFrom<BearingEntry> for BearingPart {
             raceway,
             oil_height: entry.oil_height,
             lubrication: entry.lubrication,
+            film,
         };
         if part.internal.is_some() {
             part.rolling_elements().map_err(std::borrow::Cow::into_owned)?;
@@ -547,6 +581,8 @@ context! {
         nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
         /// Density of the oil at the bearing. [kg/m3]
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+        /// Relative decrease of the oil's viscosity with temperature. [1/K]
+        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
         /// Oil height above the lowest point of the outer raceway; zero when dry. [mm]
         oil_height: 5.0 in 0.0..=500.0 from "`oil_height`, else the oil level at its position",
         /// Coefficient of boundary friction stated for the oil; zero if none is stated. [-]
@@ -568,7 +604,7 @@ context! {
 
 impl Mechanism for Bearing {
     const KEY: &'static str = "bearing";
-    const MEANING: &'static str = "Friction of a rolling bearing.";
+    const MEANING: &'static str = "Friction of a rolling bearing, a plain bearing or a thrust washer.";
     const ANSWER: &'static str = "Friction moment. [Nm]";
     const EXAMPLE: &'static str = "{ kind: deep_groove_ball, series: \"63\", bore: 40 mm, outside: 90 mm, width: 23 mm, c0: 24000 N, c: 42300 N }";
     const TOTAL: Term = Term::load("total");
@@ -601,6 +637,7 @@ impl Component for Bearing {
             temperature: oil.temperature,
             nu: oil.nu,
             rho: oil.rho,
+            beta: oil.beta,
             oil_height: part
                 .oil_height
                 .map_or_else(|| site.level.over_bottom(part.raceway), R::constant),

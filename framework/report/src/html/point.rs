@@ -187,7 +187,8 @@ fn bearings(b: &Built<'_>, solution: &Solution<'_>) -> PageTable {
             .map(|rating| rating.safety(radial, axial))
             .filter(|safety| safety.is_finite());
         let speed = read("speed").unwrap_or(0.0);
-        let factor = bearing.as_ref().map(|b| speed.abs() * b.mean_diameter() * 1e3);
+        let rolling = bearing.as_ref().filter(|b| b.kind.rolls());
+        let factor = rolling.map(|b| speed.abs() * b.mean_diameter() * 1e3);
         let name = bearing.as_ref().and_then(|b| b.designation.clone());
         rows.push(vec![
             id.to_owned(),

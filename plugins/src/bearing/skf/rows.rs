@@ -3,6 +3,8 @@
 use gearloss_framework::mechanism::bearing::{BearingKind, BearingPart};
 use gearloss_framework::real::{Mask as _, Real};
 
+use crate::bearing::rows::sliding;
+
 /// What is missing, and how to fix it.
 pub type Lack = (String, String);
 
@@ -359,6 +361,7 @@ pub fn row(part: &BearingPart, needle_as_full_complement: bool) -> Result<Row, L
         }
         K::ToroidalRoller => toroidal(5.3, 0.8)?,
         K::ToroidalRollerFullComplement => toroidal(6.0, 0.75)?,
+        K::Plain | K::ThrustWasher => return Err(sliding(part)),
         K::ThrustBall => {
             let variables = Variables::Thrust {
                 rolling: (1.03e-6 * d_m.powf(1.83), 0.54),
