@@ -23,7 +23,7 @@ pub(super) struct Key {
 }
 
 /// All keys, in the order of the catalogue.
-pub(super) const KEYS: [Key; 19] = [
+pub(super) const KEYS: [Key; 20] = [
     Key {
         name: "designation",
         unit: "",
@@ -167,6 +167,14 @@ pub(super) const KEYS: [Key; 19] = [
         symbols: "n_lim nlim nG nmax",
         words: "limitingspeed limitingspeedoil speedlimit speedratinglimiting mechanicallimitingspeed maximumspeed grenzdrehzahl grenzdrehzahlöl \
                 nlim ng nmax",
+    },
+    Key {
+        name: "estimated",
+        unit: "",
+        total: false,
+        purpose: "",
+        symbols: "",
+        words: "estimated",
     },
     Key {
         name: "confidence",
