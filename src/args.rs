@@ -545,7 +545,7 @@ pub struct CatalogueArgs {
     pub of: CatalogueArg,
     /// Part of the designations to list, such as `6208` or `"VG 150"`, or a designation with suffixes, such as `6208-2RS1/C3` [default: all].
     pub text: Option<String>,
-    /// Checks and searches this CSV file instead of the shipped catalogue.
+    /// Checks and searches this CSV file, or the tables of this folder, instead of the shipped catalogue.
     #[arg(long, value_name = "CSV")]
     pub file: Option<PathBuf>,
 }

@@ -106,3 +106,69 @@ fn an_unknown_table_says_what_to_state() {
             .contains("X,30,62,")
     );
 }
+
+/// A gearbox with a catalogue and the bearings of its input.
+fn gearbox_with(catalogue: &str, [left, right]: [&str; 2]) -> String {
+    format!(
+        "gearloss: gearbox/1
+catalogues: {{ bearings: {catalogue} }}
+ports: {{ input: a, output: b }}
+shafts: {{ a: {{ axis: [0 mm, 0 mm] }}, b: {{ axis: [60 mm, 0 mm] }} }}
+gears:
+  pinion: {{ shaft: a, at: 30 mm, z: 20, facewidth: 20 mm }}
+  wheel: {{ shaft: b, at: 30 mm, z: 40, facewidth: 20 mm }}
+meshes: {{ stage: {{ gears: [pinion, wheel], normal_module: 2 mm, centre_distance: 60 mm }} }}
+bearings:
+  left: {{ shaft: a, at: 0 mm, designation: {left}, axial: both }}
+  right: {{ shaft: a, at: 60 mm, designation: {right} }}
+  left_out: {{ shaft: b, at: 0 mm, designation: \"6206\", axial: both }}
+  right_out: {{ shaft: b, at: 60 mm, designation: \"6206\" }}
+lubricants: {{ oil: {{ designation: ISO VG 220 mineral }} }}
+"
+    )
+}
+
+#[test]
+fn a_folder_of_catalogues_is_read_whole_and_has_precedence() {
+    let folder = folder("makers");
+    std::fs::create_dir_all(folder.join("makers/old")).unwrap();
+    let head = "designation,kind,series,bore [mm],outside [mm],width [mm],c [N],c0 [N]\n";
+    let put = |name: &str, rows: &str| std::fs::write(folder.join(name), format!("{head}{rows}")).unwrap();
+    put("makers/a.csv", "6208,deep_groove_ball,62,40,80,18,35800,20800\n");
+    put("makers/b.csv", "W 200,deep_groove_ball,62,30,62,16,20300,11200\n");
+    put("makers/old/c.csv", "6208,deep_groove_ball,62,40,80,18,1,1\n");
+    std::fs::write(folder.join("makers/readme.txt"), "no table").unwrap();
+    std::fs::write(
+        folder.join("gearbox.yaml"),
+        gearbox_with("makers/", ["W 200-2Z", "6208/C3"]),
+    )
+    .unwrap();
+    let (_, out, err) = called(&folder, &["check", "--resolved", "gearbox.yaml"]);
+    let text = out + &err;
+    assert!(
+        text.contains("35800") && text.contains("20300") && !text.contains("no catalogue has"),
+        "{text}"
+    );
+    let (code, out, err) = called(&folder, &["catalogue", "bearings", "--file", "makers"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(out.contains("35800 N") && out.contains("W 200"), "{out}");
+
+    // Two files with one designation, and a folder that is none.
+    put("makers/b.csv", "6208,deep_groove_ball,62,40,80,18,35800,20800\n");
+    let (code, _, err) = called(&folder, &["check", "gearbox.yaml"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("makers/b.csv: makers/a.csv has `6208`, too") && err.contains("gearbox.yaml:2:"),
+        "{err}"
+    );
+    for (name, message) in [
+        ("nowhere/", "cannot list"),
+        ("makers/old/../", "too"),
+        ("makers", "it is a folder, not a file"),
+    ] {
+        std::fs::write(folder.join("gearbox.yaml"), gearbox_with(name, ["6208/C3", "6208/C3"])).unwrap();
+        let (code, _, err) = called(&folder, &["check", "gearbox.yaml"]);
+        assert!(code == Some(2) && err.contains(message), "{name}: {err}");
+        assert!(err.contains("a name that ends with `/` is a folder of tables"), "{err}");
+    }
+}

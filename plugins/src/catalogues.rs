@@ -14,12 +14,24 @@ inventory::submit! {
 
 inventory::submit! {
     Catalogue {
+        section: "bearings",
+        csv: include_str!("../catalogues/bearings-typical.csv"),
+        source: "Typical ratings: means over the catalogues of two to five makers, a statistic of this project and no maker's figures; boundary dimensions according to ISO 15, ISO 355 and ISO 104. Each row states how many makers and how far apart they are.",
+        origin: origin!(),
+    }
+}
+
+inventory::submit! {
+    Catalogue {
         section: "lubricants",
         csv: include_str!("../catalogues/lubricants.csv"),
         source: "Typical gear oils: constants of a public gear oil library and published data sheets. Each row states its basis.",
         origin: origin!(),
     }
 }
+
+#[cfg(test)]
+mod bearings;
 
 #[cfg(test)]
 mod tests {

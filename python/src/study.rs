@@ -58,6 +58,10 @@ impl api::FileSource for InMemoryFirst {
             read => read,
         }
     }
+
+    fn list(&self, folder: &Path) -> io::Result<Vec<String>> {
+        self.0.list(folder).or_else(|_| api::Disk.list(folder))
+    }
 }
 
 /// Ends an analysis when it is asked to.

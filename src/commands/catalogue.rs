@@ -4,6 +4,7 @@ use std::path::Path;
 
 use gearloss_framework::document::did_you_mean;
 use gearloss_framework::language::LUBRICANTS;
+use gearloss_framework::registry::Files;
 use gearloss_framework::resolve::{CatalogueRow, CatalogueTable, known_start};
 use gearloss_studies::distinct::distinct;
 
@@ -37,14 +38,24 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
     Ok(End::Fine)
 }
 
-/// A catalogue of a user. Every row must state what a component needs, because a gearbox reads only the rows that it names.
+/// A catalogue of a user, or all tables of a folder. Every row must state what a component needs, because a gearbox reads only the rows that it names.
 fn own_catalogue(
     file: &Path,
     section: &str,
     language: &gearloss_framework::language::Language,
 ) -> Result<CatalogueTable, Failure> {
-    checked(&read_table(file)?, &file.display().to_string(), section, language)
+    let name = file.display().to_string();
+    if !file.is_dir() {
+        return checked(&read_table(file)?, &name, section, language);
+    }
+    let folder = format!("{}/", name.trim_end_matches('/'));
+    let table = CatalogueTable::named(&Files::beside(""), &folder).map_err(|message| Failure::input(message, HELP))?;
+    checked_table(table, &name, section, language)
 }
+
+/// What a catalogue is.
+const HELP: &str =
+    "a catalogue has the column `designation` and keys of the section with their units, such as `bore [mm],c0 [N]`";
 
 /// The catalogue in the bytes of a file, with every value checked.
 pub(super) fn checked(
@@ -53,10 +64,17 @@ pub(super) fn checked(
     section: &str,
     language: &gearloss_framework::language::Language,
 ) -> Result<CatalogueTable, Failure> {
-    let help =
-        "a catalogue has the column `designation` and keys of the section with their units, such as `bore [mm],c0 [N]`";
-    let wrong = |message: String| Failure::input(format!("{file}: {message}"), help);
-    let table = CatalogueTable::from_file(bytes).map_err(wrong)?;
+    let table = CatalogueTable::from_file(bytes);
+    let table = table.map_err(|message| Failure::input(format!("{file}: {message}"), HELP))?;
+    checked_table(table, file, section, language)
+}
+
+fn checked_table(
+    table: CatalogueTable,
+    file: &str,
+    section: &str,
+    language: &gearloss_framework::language::Language,
+) -> Result<CatalogueTable, Failure> {
     let mut faults = Vec::new();
     let keys = distinct(
         table
@@ -103,7 +121,7 @@ pub(super) fn checked(
     if faults.is_empty() {
         Ok(table)
     } else {
-        Err(wrong(faults.join("; ")))
+        Err(Failure::input(format!("{file}: {}", faults.join("; ")), HELP))
     }
 }
 

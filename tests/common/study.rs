@@ -24,6 +24,10 @@ impl FileSource for TextsAndDisk {
     fn read(&self, path: &Path, longest: u64) -> io::Result<Vec<u8>> {
         self.0.read(path, longest).or_else(|_| Disk.read(path, longest))
     }
+
+    fn list(&self, folder: &Path) -> io::Result<Vec<String>> {
+        self.0.list(folder).or_else(|_| Disk.list(folder))
+    }
 }
 
 /// What a study gave.

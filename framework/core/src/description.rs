@@ -89,7 +89,7 @@ pub struct GearboxEntry {
     pub thermal: Thermal,
     /// Bearing loads from a file instead of the calculated ones.
     pub imported_loads: Option<ImportedLoads>,
-    /// Catalogues of this gearbox, as files: catalogue to file.
+    /// Catalogues of this gearbox: section to file, or to a folder of tables if the name ends with `/`.
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "file"))]
     pub catalogues: Ordered<String>,

@@ -23,7 +23,7 @@ use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::heat_dissipation::HeatDissipation;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{DocumentKind, Entry, Files, RatingPlugin, Registry, inventory};
-use crate::resolve::{CatalogueTable, RATINGS};
+use crate::resolve::{CatalogueTable, Fault, LinkedCatalogue, RATINGS};
 
 /// Key of the mechanism of mesh models.
 pub(crate) const MESHES: &str = GearMesh::KEY;
@@ -62,7 +62,7 @@ pub struct Language {
     gearbox: Document,
     /// Documents of other crates by name. Each is composed when it is first needed, because a gearbox alone needs none of them.
     others: BTreeMap<&'static str, Other>,
-    catalogues: BTreeMap<&'static str, CatalogueTable>,
+    catalogues: BTreeMap<&'static str, LinkedCatalogue>,
     sets: BTreeMap<String, Value>,
 }
 
@@ -96,7 +96,7 @@ impl Language {
     ///
     /// # Errors
     /// Every construct of the schema of a gearbox that cannot be checked, with mechanism, model and field; every fault of a linked
-    /// catalogue or set.
+    /// set, and of the form of a linked catalogue, whose rows are [read later](Self::faults_of_catalogues).
     pub fn new(registry: Registry) -> Result<Self, Vec<Diagnostic>> {
         let mut found = Vec::new();
         let gearbox = match Document::new(compose::gearbox(&registry)) {
@@ -113,25 +113,20 @@ impl Language {
             };
             (kind.name, other)
         };
-        let mut catalogues: BTreeMap<&'static str, CatalogueTable> = BTreeMap::new();
+        let mut catalogues: BTreeMap<&'static str, LinkedCatalogue> = BTreeMap::new();
         for section in registry.sections().map(|(_, s)| s.name).chain([LUBRICANTS]) {
             for catalogue in registry.catalogues(section) {
-                match CatalogueTable::from_file(catalogue.csv) {
-                    Ok(table) => {
-                        let known = catalogues.entry(section).or_default();
-                        if let Some(twice) = table.0.keys().find(|designation| known.0.contains_key(*designation)) {
-                            found.push(
-                                Diagnostic::error("", format!("two catalogues of {section} have a row `{twice}`"))
-                                    .note(format!("the later one is registered at {}", catalogue.origin))
-                                    .help("remove it from one, or state the values in the gearbox's own catalogue"),
-                            );
-                        }
-                        known.extend(table);
-                    }
-                    Err(reason) => found.push(
-                        Diagnostic::error("", format!("catalogue of {section}: {reason}"))
-                            .note(format!("registered at {}", catalogue.origin)),
+                let place = format!("registered at {}", catalogue.origin);
+                match catalogues.entry(section).or_default().add(catalogue.csv) {
+                    Ok(()) => {}
+                    Err(Fault::Twice(twice)) => found.push(
+                        Diagnostic::error("", format!("two catalogues of {section} have a row `{twice}`"))
+                            .note(format!("the later one is {place}"))
+                            .help("remove it from one, or state the values in the gearbox's own catalogue"),
                     ),
+                    Err(Fault::Form(reason)) => {
+                        found.push(Diagnostic::error("", format!("catalogue of {section}: {reason}")).note(place));
+                    }
                 }
             }
         }
@@ -398,9 +393,38 @@ impl Language {
         self.registry.sections().map(|(m, s)| (s.name, m.key)).chain(HELD)
     }
 
-    /// The catalogue of a section.
+    /// All rows of the linked catalogues of a section.
     pub fn catalogue(&self, section: &str) -> Option<&CatalogueTable> {
+        self.linked_catalogue(section).map(LinkedCatalogue::table)
+    }
+
+    /// The linked catalogues of a section, for single rows.
+    pub fn linked_catalogue(&self, section: &str) -> Option<&LinkedCatalogue> {
         self.catalogues.get(section)
+    }
+
+    /// Faults of the rows of all linked catalogues: cells that are no numbers, unknown keys, and values that the keys do not accept.
+    pub fn faults_of_catalogues(&self) -> Vec<String> {
+        let mut faults = Vec::new();
+        for (section, catalogue) in &self.catalogues {
+            faults.extend(
+                catalogue
+                    .faults()
+                    .map(|fault| format!("catalogue of {section}: {fault}")),
+            );
+            for (designation, row) in &catalogue.table().0 {
+                for (key, value) in &row.values {
+                    let wrong = self.checked(value, &format!("{section}.row.{key}")).err();
+                    for wrong in wrong.into_iter().flatten() {
+                        faults.push(format!(
+                            "catalogue of {section}: `{designation}`: {key}: {}",
+                            wrong.message
+                        ));
+                    }
+                }
+            }
+        }
+        faults
     }
 
     /// The model sets shipped by linked crates, checked.

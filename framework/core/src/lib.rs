@@ -77,6 +77,7 @@ pub mod table;
 pub mod attach;
 pub mod conformance;
 pub mod loss;
+mod maker;
 pub mod mechanism;
 pub mod rating;
 mod registration;

@@ -302,7 +302,8 @@ inventory::collect!(MechanismEntry);
 pub struct Catalogue {
     /// Section whose components it fills.
     pub section: &'static str,
-    /// CSV text: `designation`, then keys of the section with their unit in the header, then `confidence` and `basis`.
+    /// CSV text: `designation`, then keys of the section with their unit in the header, then `estimated`, `confidence` and `basis`; with
+    /// commas, decimal points and no quotes. A row is read when a document names it.
     pub csv: &'static str,
     /// Its source and licence.
     pub source: &'static str,

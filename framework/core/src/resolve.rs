@@ -8,6 +8,7 @@ mod bearing_series;
 mod catalogue;
 mod choice;
 mod designation;
+mod linked_catalogue;
 mod network;
 mod paths;
 mod ratings;
@@ -18,14 +19,16 @@ use serde_json::{Map, Value};
 
 pub use bearing_designation::{Designation, read as read_designation};
 pub use bearing_series::{BasicDesignation, basic_designation};
-pub use catalogue::{CatalogueHits, CatalogueRow, CatalogueTable};
+pub use catalogue::{CatalogueHits, CatalogueRow, CatalogueTable, ESTIMATED};
 pub use choice::{Choice, ModelSet, OWN_MODELS, called_own, expand_set, sets_of};
 pub use designation::known_start;
+pub use linked_catalogue::LinkedCatalogue;
 pub use paths::{lookup, matches};
 
 pub use paths::{meets, no_match};
 pub use ratings::RATINGS;
 
+pub(crate) use linked_catalogue::Fault;
 pub(crate) use paths::lookup_mut;
 
 use crate::codes;

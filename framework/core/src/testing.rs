@@ -73,13 +73,14 @@ pub fn part(mechanism: &str, yaml: &str) -> serde_json::Value {
     }
 }
 
-/// Runs the conformance suite on every linked model and rating.
+/// Runs the conformance suite on every linked model and rating, and reads all rows of linked catalogues.
 ///
 /// # Panics
 /// With a line for each fault.
 #[track_caller]
 pub fn conformance() {
-    let faults = check_all(language());
+    let mut faults = check_all(language());
+    faults.extend(language().faults_of_catalogues());
     assert!(faults.is_empty(), "{}", lines(&faults));
 }
 

@@ -34,6 +34,32 @@ pub trait FileSource: fmt::Debug + Send + Sync {
     fn read_text(&self, path: &Path, longest: u64) -> Result<String> {
         text_from(self.read(path, longest)?)
     }
+
+    /// The names of the files in a folder, not of those in folders below it, in order.
+    ///
+    /// # Errors
+    /// The reason why the folder cannot be listed; without an own implementation, that it never can.
+    fn list(&self, _folder: &Path) -> Result<Vec<String>> {
+        Err(Error::new(ErrorKind::Unsupported, "folders cannot be listed here"))
+    }
+}
+
+/// The names of the files in a folder of the system, in order; names that are no text are left out.
+///
+/// # Errors
+/// Errors of the system.
+pub fn list_folder(folder: &Path) -> Result<Vec<String>> {
+    let mut names = Vec::new();
+    for entry in std::fs::read_dir(folder)? {
+        let entry = entry?;
+        if entry.path().is_file()
+            && let Ok(name) = entry.file_name().into_string()
+        {
+            names.push(name);
+        }
+    }
+    names.sort();
+    Ok(names)
 }
 
 /// A [`FileSource`] that documents share.
@@ -53,6 +79,10 @@ impl Disk {
 impl FileSource for Disk {
     fn read(&self, path: &Path, longest: u64) -> Result<Vec<u8>> {
         read_bytes(path, longest)
+    }
+
+    fn list(&self, folder: &Path) -> Result<Vec<String>> {
+        list_folder(folder)
     }
 }
 
@@ -106,6 +136,18 @@ impl FileSource for InMemory {
         within(bytes.len() as u64, longest)?;
         Ok(bytes.clone())
     }
+
+    fn list(&self, folder: &Path) -> Result<Vec<String>> {
+        let folder = without_dots(folder);
+        let names = self.0.keys().filter(|path| path.parent() == Some(&folder));
+        let names: Vec<String> = names
+            .filter_map(|path| Some(path.file_name()?.to_str()?.to_owned()))
+            .collect();
+        if names.is_empty() {
+            return Err(Error::new(ErrorKind::NotFound, "there is no such folder in memory"));
+        }
+        Ok(names)
+    }
 }
 
 /// The files of another source, of which those that were read are kept: what a second process needs to read the same documents.
@@ -140,6 +182,10 @@ impl FileSource for Recorder {
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         read.add(path, bytes.as_slice());
         Ok(bytes)
+    }
+
+    fn list(&self, folder: &Path) -> Result<Vec<String>> {
+        self.source.list(folder)
     }
 }
 
@@ -272,6 +318,27 @@ mod tests {
         );
         let long = files.read(Path::new("rig.csv"), 2).unwrap_err().to_string();
         assert_eq!(long, "it has 1 kB; at most 1 kB are read");
+    }
+
+    #[test]
+    fn files_of_a_folder_are_listed_in_order_and_not_those_below() {
+        let texts = [
+            ("makers/b.csv", "b"),
+            ("makers/a.csv", "a"),
+            ("makers/old/c.csv", "c"),
+            ("d.csv", "d"),
+        ];
+        let memory = Recorder::new(InMemory::new(texts).shared());
+        let folder = std::env::temp_dir().join(format!("gearloss-list-{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("makers/old")).unwrap();
+        for (name, text) in texts {
+            std::fs::write(folder.join(name), text).unwrap();
+        }
+        for listed in [memory.list(Path::new("./makers/")), Disk.list(&folder.join("makers/"))] {
+            assert_eq!(listed.unwrap(), ["a.csv", "b.csv"]);
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert!(memory.list(Path::new("nowhere")).is_err() && Disk.list(&folder).is_err());
     }
 
     #[cfg(unix)]

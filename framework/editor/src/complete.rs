@@ -5,7 +5,7 @@ use std::path::Path;
 
 use gearloss_document::{Unit, number_length};
 use gearloss_framework::language::LUBRICANTS;
-use gearloss_framework::registry::{ShippedCycle, inventory};
+use gearloss_framework::registry::{Files, ShippedCycle, inventory};
 use gearloss_framework::resolve::{CatalogueRow, CatalogueTable};
 use serde::Serialize;
 use serde_json::Value;
@@ -457,6 +457,10 @@ impl Workspace<'_> {
     pub(crate) fn catalogue(&self, document: &Document, name: &str) -> Option<CatalogueTable> {
         self.chain(&document.path).iter().find_map(|opened| {
             let file = section(&opened.outline, &format!("catalogues.{name}"))?.text()?;
+            if file.ends_with('/') {
+                let folder = opened.path.parent().unwrap_or(Path::new(""));
+                return CatalogueTable::named(&Files::from_source(self.files(), folder), file).ok();
+            }
             let bytes = self.files().read(&named(&opened.path, file), LONGEST_CATALOGUE).ok()?;
             CatalogueTable::from_file(&bytes).ok()
         })

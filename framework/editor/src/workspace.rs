@@ -57,6 +57,10 @@ impl FileSource for Overlay {
             None => self.source.read(path, longest),
         }
     }
+
+    fn list(&self, folder: &Path) -> io::Result<Vec<String>> {
+        self.source.list(folder)
+    }
 }
 
 /// The gearboxes of a study: name and file.

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use gearloss_editor::folder;
-use gearloss_framework::files::{FileSource, LONGEST_TEXT, SharedSource, read_bytes, read_text};
+use gearloss_framework::files::{FileSource, LONGEST_TEXT, SharedSource, list_folder, read_bytes, read_text};
 
 use crate::answer::Fault;
 use crate::drafts::{Draft, Drafts, KeptDraft};
@@ -253,6 +253,10 @@ struct Below(PathBuf);
 impl FileSource for Below {
     fn read(&self, path: &Path, longest: u64) -> io::Result<Vec<u8>> {
         read_bytes(&self.0.join(path), longest)
+    }
+
+    fn list(&self, folder: &Path) -> io::Result<Vec<String>> {
+        list_folder(&self.0.join(folder))
     }
 }
 

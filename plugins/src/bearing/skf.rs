@@ -199,8 +199,8 @@ struct Model {
     seals: f64,
     /// True if the diameter of the counterface of the seals is not stated.
     counterface_is_estimated: bool,
-    /// True if the constants are those of all series without a row of their own.
-    is_of_other_series: bool,
+    /// Why the constants are those of another row than that of the series.
+    substitute: Option<&'static str>,
 }
 
 impl Model {
@@ -246,7 +246,7 @@ impl Model {
             },
             seals,
             counterface_is_estimated: params.seals.is_none() && seals > 0.0,
-            is_of_other_series: rows::is_of_other_series(part),
+            substitute: rows::substitute(part),
         })
     }
 }
@@ -413,8 +413,8 @@ impl BearingLaw for Model {
         at.show("G_sl", "-", g_sl);
         self.check_speeds(at, n)?;
         let seals = R::constant(self.seals.nmm_in_nm());
-        if self.is_of_other_series {
-            at.branch("the catalogue has no row for this series: its row of all other series");
+        if let Some(substitute) = self.substitute {
+            at.branch(substitute);
         }
         if self.counterface_is_estimated {
             at.branch("counterface of the seals at d + 0.32 (D - d): not stated");
@@ -473,7 +473,7 @@ register!(Bearing, "skf", Skf,
     source: "SKF Rolling bearings, PUB 10000 (2013) and PUB 17000 (2018)",
     example: "{ type: skf, edition: \"2018\" }",
     evidence: [
-        formula(Evidence::SeveralSources, "catalogue pages and two or three transcriptions agree, except for S2 of C22 and C23 and R1 of series H"),
+        formula(Evidence::SeveralSources, "catalogue pages and two or three transcriptions agree, except for S2 of C22 and C23 and R1 of series H; series 213 without E has no row and takes that of 222, an assumption"),
         default_of("edition", Evidence::SeveralSources, "both editions are printed"),
         default_of("ball", Evidence::Assumed, "typical diameter of a ball or roller over the cross-section"),
         default_of("mu_bl", Evidence::SeveralSources, "0.15 in 2013, 0.12 for running bearings in 2018, unless the oil states its own"),

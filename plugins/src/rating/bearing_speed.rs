@@ -52,6 +52,8 @@ impl Rating<Bearing> for BearingSpeed {
         if let Some(limiting) = at.part.limiting_speed {
             let ratio = at.show("n/n_lim", "-", n / limiting.rpm());
             to.add_bounded(&OF_LIMITING, ratio, Bound::at_most(self.greatest_ratio));
+        } else {
+            at.branch("`limiting_speed` is not stated: the speed is not compared with it");
         }
         Ok(())
     }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::attach::{Support, SupportSite};
 use crate::loads::{Carries, Induced, StaticFactors, StaticRating, Thrust};
 use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::maker::bare;
 use crate::mechanism::{Component, Mechanism, Scalar};
 use crate::real::{Dual, Lane, Points, Real};
 use crate::resolve::basic_designation;
@@ -353,7 +354,7 @@ impl BearingPart {
     /// The loads that the bearing can carry, by its kind, and by the beginning of its designation where that states the flanges (ISO 5753,
     /// DIN 5412) or the number of directions.
     pub fn carries(&self) -> Carries {
-        let designation = self.designation.as_deref().unwrap_or_default();
+        let designation = bare(self.designation.as_deref().unwrap_or_default());
         let begins = |with: &[&str]| with.iter().any(|start| designation.starts_with(start));
         let single_direction = || {
             if begins(&[
@@ -704,6 +705,32 @@ mod tests {
         };
         let part = BearingPart::try_from(entry).unwrap();
         assert!((part.raceway - 23.3e-3).abs() < 0.05e-3, "{}", part.raceway);
+    }
+
+    #[test]
+    fn the_loads_of_a_designation_are_those_with_maker_suffixes_and_spaces() {
+        use BearingKind as K;
+        for (kind, designation, radial, thrust) in [
+            (K::CylindricalRoller, "NU205EC", true, Thrust::None),
+            (K::CylindricalRoller, "SKF NU 205 ECP", true, Thrust::None),
+            (K::CylindricalRoller, "n 205-E-TVP2", true, Thrust::None),
+            (K::CylindricalRoller, "NJ 2205", true, Thrust::OneDirection),
+            (K::CylindricalRoller, "FAG NUP205-E", true, Thrust::Both),
+            (K::NeedleCage, "", true, Thrust::None),
+            (K::ThrustBall, "NSK 511 08", false, Thrust::OneDirection),
+            (K::ThrustBall, "52208", false, Thrust::Both),
+            (K::SphericalRollerThrust, "29412 E", true, Thrust::OneDirection),
+        ] {
+            let entry = BearingEntry {
+                designation: Some(designation.to_owned()),
+                kind: Some(kind),
+                bore: Some(0.025),
+                outside: Some(0.052),
+                ..BearingEntry::default()
+            };
+            let carries = BearingPart::try_from(entry).unwrap().carries();
+            assert_eq!((carries.radial, carries.thrust), (radial, thrust), "{designation}");
+        }
     }
 
     #[test]

@@ -94,6 +94,16 @@ impl Files {
         Ok(text)
     }
 
+    /// The names of the files in a folder, in order.
+    ///
+    /// # Errors
+    /// The reason why it cannot be listed, with the path that was tried.
+    pub fn list(&self, folder: &str) -> Result<Vec<String>, String> {
+        let path = self.folder.join(folder);
+        let names = self.source.list(&path);
+        names.map_err(|e| format!("cannot list {}: {e}", path.display()))
+    }
+
     /// The bytes of a file.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! What the basic designation of a rolling bearing states: kind, dimension series, bore and contact angle.
 //!
-//! Source: DIN 623-1 for kinds, series and bores; DIN 628-1 for the letters of contact angles. The series are written as the tables of
+//! Source: DIN 623-1 for kinds, series and bores; DIN 628-1 for the letters of contact angles, except D of double rows, which is SKF's. The series are written as the tables of
 //! the loss models name them.
 
 /// A basic designation.
@@ -112,7 +112,8 @@ pub fn basic_designation(designation: &str) -> Option<BasicDesignation> {
             Some(letter) => (Some(letter), Some(15)),
             None => (None, None),
         },
-        "angular_contact_ball_double_row" => match starts(&["A"]) {
+        "angular_contact_ball_double_row" => match starts(&["A", "D"]) {
+            Some("D") => (Some("D"), Some(45)),
             Some(letter) => (Some(letter), Some(30)),
             None => (None, None),
         },
@@ -162,6 +163,7 @@ mod tests {
             ("7208-B-TVP", "angular_contact_ball", Some("72 B"), Some(40.0)),
             ("7008 AC", "angular_contact_ball", Some("70 AC"), Some(40.0)),
             ("3208 A-2Z", "angular_contact_ball_double_row", Some("32 A"), Some(40.0)),
+            ("3308 DMA", "angular_contact_ball_double_row", Some("33 D"), Some(40.0)),
             ("NU 208 ECP", "cylindrical_roller", Some("2"), Some(40.0)),
             ("NU 2208", "cylindrical_roller", Some("22"), Some(40.0)),
             ("N208", "cylindrical_roller", Some("2"), Some(40.0)),

@@ -1,11 +1,13 @@
 //! Catalogues: CSV tables that fill omitted keys of components by designation.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
 use super::bearing_designation::{self, Designation};
 use super::designation::suggest;
+use super::linked_catalogue::LinkedCatalogue;
 use super::{ValueSource, absent, entries_mut};
 use crate::attach::dangling;
 use crate::codes;
@@ -22,10 +24,83 @@ use crate::registry::Files;
 pub struct CatalogueRow {
     /// Keys of the section and their values, in written form.
     pub values: Vec<(String, Value)>,
+    /// Keys whose values are estimates by a rule.
+    pub estimated: Vec<String>,
     /// Confidence of the row.
     pub confidence: String,
     /// Origin of the data; may be empty.
     pub basis: String,
+}
+
+/// Confidence of a value that is estimated by a rule.
+pub const ESTIMATED: &str = "estimated";
+
+impl CatalogueRow {
+    /// Confidence of the value of a key.
+    fn confidence_of(&self, key: &str) -> &str {
+        if self.estimated.iter().any(|estimated| estimated == key) {
+            ESTIMATED
+        } else {
+            &self.confidence
+        }
+    }
+}
+
+/// The columns of a catalogue: key, and the unit if it is a number; an empty unit is that of a plain number.
+pub(super) type Columns<'a> = [(&'a str, Option<&'a str>)];
+
+/// The unit of a column as it is written behind a number: a dash marks a plain number.
+pub(super) fn unit_of_column(symbol: &str) -> Option<&str> {
+    let read = Unit::read(symbol)?;
+    let is_plain = read.dimension == Dimension::None && read.factor == 1.0;
+    Some(if is_plain { "" } else { symbol })
+}
+
+/// A row of its cells; `number` reads a cell, and gives its text with a decimal point.
+///
+/// # Errors
+/// A cell that is not a number, with its column.
+pub(super) fn row<'c>(
+    columns: &Columns<'_>,
+    cells: impl Iterator<Item = &'c str>,
+    number: impl Fn(&'c str) -> Option<(f64, Cow<'c, str>)>,
+) -> Result<CatalogueRow, String> {
+    let mut row = CatalogueRow {
+        values: Vec::new(),
+        estimated: Vec::new(),
+        confidence: "not stated".to_owned(),
+        basis: String::new(),
+    };
+    for ((key, unit), cell) in columns.iter().zip(cells) {
+        let value = match (*key, unit) {
+            ("designation", _) => continue,
+            ("basis", _) => {
+                cell.clone_into(&mut row.basis);
+                continue;
+            }
+            ("confidence", _) => {
+                cell.clone_into(&mut row.confidence);
+                continue;
+            }
+            ("estimated", _) => {
+                row.estimated = cell.split_whitespace().map(str::to_owned).collect();
+                continue;
+            }
+            _ if cell.is_empty() => continue,
+            (_, Some(unit)) => {
+                let (number, plain) =
+                    number(cell).ok_or_else(|| format!("column `{key}`: `{cell}` is not a number"))?;
+                if unit.is_empty() {
+                    Value::from(number)
+                } else {
+                    Value::from(format!("{plain} {unit}"))
+                }
+            }
+            (_, None) => Value::from(cell),
+        };
+        row.values.push(((*key).to_owned(), value));
+    }
+    Ok(row)
 }
 
 /// A catalogue: rows by designation.
@@ -85,8 +160,42 @@ impl CatalogueTable {
         }
     }
 
+    /// Reads the catalogue that a document names: a file, or all tables of a folder (`.csv`, `.xlsx`) if the name ends with `/`.
+    ///
+    /// # Errors
+    /// Why a file or the folder cannot be read, with the name of the file; a designation that two files of the folder have.
+    pub fn named(files: &Files, name: &str) -> Result<Self, String> {
+        let read = |file: &str| {
+            let bytes = files.bytes(file)?;
+            Self::from_file(&bytes).map_err(|wrong| format!("{file}: {wrong}"))
+        };
+        if !name.ends_with('/') {
+            return read(name);
+        }
+        let is_table = |file: &String| {
+            let file = file.to_ascii_lowercase();
+            file.ends_with(".csv") || file.ends_with(".xlsx")
+        };
+        let tables: Vec<String> = files.list(name)?.into_iter().filter(is_table).collect();
+        if tables.is_empty() {
+            return Err(format!("{name} has no table (.csv, .xlsx)"));
+        }
+        let mut whole = BTreeMap::new();
+        let mut file_of: BTreeMap<String, String> = BTreeMap::new();
+        for table in tables {
+            let file = format!("{name}{table}");
+            for (designation, row) in read(&file)?.0 {
+                if let Some(first) = file_of.insert(designation.clone(), file.clone()) {
+                    return Err(format!("{file}: {first} has `{designation}`, too"));
+                }
+                whole.insert(designation, row);
+            }
+        }
+        Ok(Self(whole))
+    }
+
     /// Reads a catalogue from the bytes of a CSV file, a workbook or an MDF file: `designation`, then keys with their unit in brackets, and
-    /// optionally `confidence` and `basis`. A column without a unit is text. An empty cell states nothing.
+    /// optionally `estimated` (keys whose values are from a rule, separated by spaces), `confidence` and `basis`. A column without a unit is text. An empty cell states nothing.
     ///
     /// # Errors
     /// With the line of the file.
@@ -97,19 +206,11 @@ impl CatalogueTable {
             .map_err(|wrong| format!("{} ({})", wrong.message, wrong.help))?;
         let mut columns = Vec::new();
         for (place, (key, symbol)) in table.names.iter().zip(&table.units).enumerate() {
-            let unknown = |symbol: &String| {
-                format!(
-                    "line {}: column `{key} [{symbol}]`: unknown unit",
-                    table.unit_lines[place]
-                )
-            };
             let unit = match symbol {
-                Some(symbol) => {
-                    let read = Unit::read(symbol).ok_or_else(|| unknown(symbol))?;
-                    // A dash marks a plain number.
-                    let is_plain = read.dimension == Dimension::None && read.factor == 1.0;
-                    Some(if is_plain { "" } else { symbol.as_str() })
-                }
+                Some(symbol) => Some(unit_of_column(symbol).ok_or_else(|| {
+                    let line = table.unit_lines[place];
+                    format!("line {line}: column `{key} [{symbol}]`: unknown unit")
+                })?),
                 None => None,
             };
             columns.push((key.as_str(), unit));
@@ -122,33 +223,15 @@ impl CatalogueTable {
         };
         let mut rows = BTreeMap::new();
         for (line, record) in &table.rows {
-            let mut row = CatalogueRow {
-                values: Vec::new(),
-                confidence: "not stated".to_owned(),
-                basis: String::new(),
+            let number = |cell| {
+                let number = table.numbers.number(cell)?;
+                Some((
+                    number,
+                    table.numbers.plain(cell).map_or(Cow::Borrowed(cell), Cow::Owned),
+                ))
             };
-            for ((key, unit), cell) in columns.iter().zip(record) {
-                match (*key, unit) {
-                    ("designation", _) => {}
-                    ("basis", _) => cell.clone_into(&mut row.basis),
-                    ("confidence", _) => cell.clone_into(&mut row.confidence),
-                    _ if cell.is_empty() => {}
-                    (_, Some(unit)) => {
-                        let number = table.numbers.number(cell);
-                        let number =
-                            number.ok_or_else(|| format!("line {line}: column `{key}`: `{cell}` is not a number"))?;
-                        let value = match *unit {
-                            "" => Value::from(number),
-                            unit => {
-                                let plain = table.numbers.plain(cell);
-                                Value::from(format!("{} {unit}", plain.as_ref().unwrap_or(cell)))
-                            }
-                        };
-                        row.values.push(((*key).to_owned(), value));
-                    }
-                    (_, None) => row.values.push(((*key).to_owned(), Value::from(cell.as_str()))),
-                }
-            }
+            let row = row(&columns, record.iter().map(String::as_str), number);
+            let row = row.map_err(|wrong| format!("line {line}: {wrong}"))?;
             let Some(designation) = record.get(at).filter(|cell| !cell.is_empty()).cloned() else {
                 return Err(format!("line {line}: no designation"));
             };
@@ -174,27 +257,64 @@ pub(super) fn fill(
     // A designation may be just a name, if the required keys are written.
     let sections: Vec<(&str, &str)> = components.chain([(LUBRICANTS, "viscosity")]).collect();
     for (section, needed) in sections {
-        let (shipped, written) = (language.catalogue(section), of_gearbox.get(section));
+        let (linked, written) = (language.linked_catalogue(section), of_gearbox.get(section));
         for (id, entry) in entries_mut(value, section) {
             let Some(designation) = entry.get("designation").and_then(Value::as_str).map(str::to_owned) else {
                 continue;
             };
-            let tables = || written.into_iter().chain(shipped);
             let path = format!("{section}.{id}");
-            let mut fill = |designation: &str, row: &CatalogueRow| {
-                fill_entry(language, &path, entry, designation, row, sources, found);
+            let known = Known { written, linked };
+            let (suffixes, row) = match known.row(&designation) {
+                Some(row) => (None, Some(row)),
+                None => match with_suffixes(section, &designation, known) {
+                    Some((read, row)) => (Some(read), Some(row)),
+                    None => (None, None),
+                },
             };
-            if let Some(row) = tables().find_map(|t| t.0.get(&designation)) {
-                fill(&designation, row);
-            } else if let Some((read, row)) = with_suffixes(section, &designation, tables()) {
-                notes.push(format!("{path}.designation `{designation}`: {}", read.words()));
-                fill(&designation, &row);
-            } else if absent(entry, needed) {
-                let rows = shipped.into_iter().chain(written).flat_map(|t| &t.0);
-                let rows: Vec<(&str, &CatalogueRow)> = rows.map(|(name, row)| (name.as_str(), row)).collect();
-                found.push(unknown_designation(section, id, &designation, &rows));
+            match row {
+                Some(Ok(row)) => {
+                    if let Some(read) = suffixes {
+                        notes.push(format!("{path}.designation `{designation}`: {}", read.words()));
+                    }
+                    fill_entry(language, &path, entry, &designation, &row, sources, found);
+                }
+                Some(Err(reason)) => {
+                    let message = format!("linked catalogue of {section}: {reason}");
+                    found.push(Diagnostic::error(format!("{path}.designation"), message));
+                }
+                None if absent(entry, needed) => {
+                    let rows = linked.into_iter().map(LinkedCatalogue::table).chain(written);
+                    let rows = rows.flat_map(|table| &table.0);
+                    let rows: Vec<(&str, &CatalogueRow)> = rows.map(|(name, row)| (name.as_str(), row)).collect();
+                    found.push(unknown_designation(section, id, &designation, &rows));
+                }
+                None => {}
             }
         }
+    }
+}
+
+/// The catalogues of a section: the document's own one has precedence.
+#[derive(Clone, Copy)]
+struct Known<'t> {
+    written: Option<&'t CatalogueTable>,
+    linked: Option<&'t LinkedCatalogue>,
+}
+
+impl<'t> Known<'t> {
+    fn row(self, designation: &str) -> Option<Result<CatalogueRow, String>> {
+        let written = self.written.and_then(|table| table.0.get(designation));
+        written
+            .map(|row| Ok(row.clone()))
+            .or_else(|| self.linked?.row(designation))
+    }
+
+    fn designations(self) -> impl Iterator<Item = &'t str> + Clone {
+        let written = self.written.into_iter().flat_map(|table| table.0.keys());
+        let linked = self.linked.into_iter().flat_map(LinkedCatalogue::designations);
+        written
+            .map(String::as_str)
+            .chain(linked.map(|name| -> &'t str { name }))
     }
 }
 
@@ -202,18 +322,19 @@ pub(super) fn fill(
 fn with_suffixes<'t>(
     section: &str,
     written: &str,
-    tables: impl Iterator<Item = &'t CatalogueTable> + Clone,
-) -> Option<(Designation<'t>, CatalogueRow)> {
+    known: Known<'t>,
+) -> Option<(Designation<'t>, Result<CatalogueRow, String>)> {
     if section != Bearing::SECTION {
         return None;
     }
-    let known = tables.clone().flat_map(|table| table.0.keys().map(String::as_str));
-    let read = bearing_designation::read(written, known)?;
-    let mut row = tables.clone().find_map(|table| table.0.get(read.base))?.clone();
-    let (keys, invalid) = read.changes();
-    row.values.retain(|(key, _)| !invalid.contains(&key.as_str()));
-    row.values
-        .extend(keys.into_iter().map(|(key, value)| (key.to_owned(), value)));
+    let read = bearing_designation::read(written, known.designations())?;
+    let row = known.row(read.base)?.map(|mut row| {
+        let (keys, invalid) = read.changes();
+        row.values.retain(|(key, _)| !invalid.contains(&key.as_str()));
+        row.values
+            .extend(keys.into_iter().map(|(key, value)| (key.to_owned(), value)));
+        row
+    });
     Some((read, row))
 }
 
@@ -227,11 +348,7 @@ fn written_catalogues(
     let mut tables = BTreeMap::new();
     for (section, file) in value.get("catalogues").and_then(Value::as_object).into_iter().flatten() {
         let path = format!("catalogues.{section}");
-        let file = file.as_str().unwrap_or_default();
-        match files
-            .bytes(file)
-            .and_then(|bytes| CatalogueTable::from_file(&bytes).map_err(|e| format!("{file}: {e}")))
-        {
+        match CatalogueTable::named(files, file.as_str().unwrap_or_default()) {
             Ok(table) if section == LUBRICANTS || language.registry().sections().any(|(_, s)| s.name == section) => {
                 tables.insert(section.clone(), table);
             }
@@ -241,7 +358,9 @@ fn written_catalogues(
                 found.push(dangling(&path, "section of components", section, &known));
             }
             Err(reason) => {
-                found.push(Diagnostic::error(path, reason).help("file names are relative to the gearbox document"));
+                found.push(Diagnostic::error(path, reason).help(
+                    "file names are relative to the gearbox document; a name that ends with `/` is a folder of tables",
+                ));
             }
         }
     }
@@ -303,7 +422,7 @@ fn fill_entry(
         }
         let from = ValueSource::Catalogue {
             designation: designation.to_owned(),
-            confidence: row.confidence.clone(),
+            confidence: row.confidence_of(key).to_owned(),
         };
         sources.insert(path, from);
     }

@@ -66,7 +66,9 @@ pub(super) fn suggest(error: Diagnostic, designation: &str, rows: &[(&str, &Cata
             .is_some_and(|(bore, other)| (bore - other).abs() < 0.5)
     };
     let mut same: Vec<(&str, &CatalogueRow)> = rows.iter().filter(is_same).copied().collect();
-    same.sort_by_key(|(name, _)| (distance(designation, name), *name));
+    // A bearing of the same series is nearer than one with a similar name.
+    let is_of_series = |row: &CatalogueRow| text(row, "series") == basic.series.as_deref();
+    same.sort_by_key(|(name, row)| (!is_of_series(row), distance(designation, name), *name));
     same.truncate(SUGGESTED);
     if same.is_empty() {
         return error.help(format!("{here}, or add a CSV file under `catalogues`"));
@@ -105,9 +107,15 @@ mod tests {
                 ("kind".to_owned(), Value::from(kind)),
                 ("bore".to_owned(), Value::from(bore)),
             ],
+            estimated: Vec::new(),
             confidence: String::new(),
             basis: String::new(),
         }
+    }
+
+    fn of_series(series: &str, mut row: CatalogueRow) -> CatalogueRow {
+        row.values.push(("series".to_owned(), Value::from(series)));
+        row
     }
 
     fn suggested(designation: &str) -> (Vec<String>, String) {
@@ -119,7 +127,8 @@ mod tests {
             ("6208", row(ball, "40 mm")),
             ("6213", row(ball, "65 mm")),
             ("30210", row("tapered_roller", "50 mm")),
-            ("NU208EC", row("cylindrical_roller", "40 mm")),
+            ("NJ408", row("cylindrical_roller", "40 mm")),
+            ("NU208EC", of_series("2", row("cylindrical_roller", "40 mm"))),
         ];
         let rows: Vec<(&str, &CatalogueRow)> = rows.iter().map(|(name, row)| (*name, row)).collect();
         let found = suggest(Diagnostic::error("", "unknown"), designation, &rows, "state it here");
@@ -141,7 +150,7 @@ mod tests {
         assert_eq!(notes, ["of this kind and bore: 30210 (50 mm)"]);
         assert!(help.starts_with("state it here"), "{help}");
         let (notes, help) = suggested("N208");
-        assert_eq!(notes, ["of this kind and bore: NU208EC (40 mm)"]);
+        assert_eq!(notes, ["of this kind and bore: NU208EC (40 mm), NJ408 (40 mm)"]);
         assert!(help.starts_with("state it here"), "{help}");
     }
 

@@ -16,8 +16,8 @@ const LIMIT: &str = "column e";
 const ANGULAR: [(u32, f64, f64, f64); 3] = [(25, 0.68, 0.87, 0.38), (30, 0.80, 0.76, 0.33), (40, 1.14, 0.57, 0.26)];
 /// Y0 of single-row ones at 15 degrees, whose e and Y depend on the load.
 const Y0_15: f64 = 0.46;
-/// Double-row angular contact ball bearings at 30 degrees: e, Y beyond it, Y0.
-const DOUBLE_ROW_30: (f64, f64, f64) = (0.80, 1.24, 0.66);
+/// Double-row angular contact ball bearings: contact angle in degrees, e, Y beyond it, Y0.
+const DOUBLE_ROW: [(u32, f64, f64, f64); 2] = [(30, 0.80, 1.24, 0.66), (45, 1.34, 0.81, 0.44)];
 
 /// Y and Y0 times e: factors of cot(alpha) times 1.5, for loads beyond e.
 fn factors_of_limit(kind: &str) -> Option<(f64, f64)> {
@@ -55,9 +55,10 @@ pub(super) fn complete(row: &mut Row) {
                 put_all(row, [*e, *y, *y0]);
             }
         }
-        ("angular_contact_ball_double_row", Some(30)) => {
-            let (e, y, y0) = DOUBLE_ROW_30;
-            put_all(row, [e, y, y0]);
+        ("angular_contact_ball_double_row", Some(angle)) => {
+            if let Some((_, e, y, y0)) = DOUBLE_ROW.iter().find(|row| row.0 == angle) {
+                put_all(row, [*e, *y, *y0]);
+            }
         }
         _ => {}
     }

@@ -177,6 +177,14 @@ pub(super) const KEYS: [Key; 20] = [
                 nlim ng nmax",
     },
     Key {
+        name: "estimated",
+        unit: "",
+        total: false,
+        purpose: "",
+        symbols: "",
+        words: "estimated",
+    },
+    Key {
         name: "confidence",
         unit: "",
         total: false,

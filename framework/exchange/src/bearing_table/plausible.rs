@@ -5,10 +5,28 @@ use gearloss_framework::resolve::CatalogueTable;
 
 use super::{Row, warning};
 
-/// C0/C of radial and thrust bearings of all kinds: 0.4 for small balls, 4 for rollers between washers.
-const STATIC_TO_DYNAMIC: [f64; 2] = [0.25, 6.0];
-/// C0/C of self-aligning ball bearings, whose outer raceway touches the balls in nearly a point: 0.21 to 0.5.
-const STATIC_TO_DYNAMIC_SELF_ALIGNING: [f64; 2] = [0.15, 1.0];
+/// C0/C by kind: that of the bearings of the shipped catalogue with a margin; of kinds that it does not have, that of similar ones.
+pub(super) const STATIC_TO_DYNAMIC: [(&str, [f64; 2]); 17] = [
+    ("deep_groove_ball", [0.25, 2.0]),
+    ("deep_groove_ball_double_row", [0.3, 2.0]),
+    ("self_aligning_ball", [0.15, 1.0]),
+    ("angular_contact_ball", [0.35, 1.6]),
+    ("angular_contact_ball_double_row", [0.4, 1.8]),
+    ("four_point_contact_ball", [0.4, 2.0]),
+    ("thrust_ball", [1.0, 8.0]),
+    ("cylindrical_roller", [0.6, 2.5]),
+    ("cylindrical_roller_full_complement", [0.7, 3.0]),
+    ("needle_cage", [0.6, 4.0]),
+    ("tapered_roller", [0.6, 3.0]),
+    ("spherical_roller", [0.7, 3.0]),
+    ("toroidal_roller", [0.7, 3.0]),
+    ("toroidal_roller_full_complement", [0.7, 3.5]),
+    ("cylindrical_roller_thrust", [2.0, 8.0]),
+    ("needle_roller_thrust", [2.0, 12.0]),
+    ("spherical_roller_thrust", [1.8, 7.0]),
+];
+/// C0/C of any kind.
+const STATIC_TO_DYNAMIC_OF_ANY: [f64; 2] = [0.15, 12.0];
 /// C per area of the section, C / ((D - d) B): bearings have 20 to 200. \[N/mm2\]
 const RATING_PER_AREA: [f64; 2] = [4.0, 800.0];
 /// Pu/C0: 1/22 (ball) to 1/8.2 (roller) by ISO 281, less for large bearings.
@@ -100,10 +118,10 @@ pub(super) fn check(row: &Row, name: &str, shipped: Option<&CatalogueTable>, war
 }
 
 fn static_to_dynamic(row: &Row) -> [f64; 2] {
-    match row.kind.as_deref() {
-        Some("self_aligning_ball") => STATIC_TO_DYNAMIC_SELF_ALIGNING,
-        _ => STATIC_TO_DYNAMIC,
-    }
+    let of_kind = STATIC_TO_DYNAMIC
+        .iter()
+        .find(|(kind, _)| row.kind.as_deref() == Some(kind));
+    of_kind.map_or(STATIC_TO_DYNAMIC_OF_ANY, |(_, range)| *range)
 }
 
 /// Bore and outside diameter of a designation of the shipped catalogue. \[mm\]

@@ -207,6 +207,44 @@ fn implausible_rows_are_told() {
     );
 }
 
+/// What is usual for one kind is wrong for another.
+#[test]
+fn limits_of_ratings_are_those_of_the_kind() {
+    let all: Vec<&str> = kind::all().collect();
+    for (designation, ratio, told) in [
+        ("1208", 0.22, false),
+        ("6208", 0.22, true),
+        ("6208", 0.6, false),
+        ("51208", 5.0, false),
+        ("51208", 0.8, true),
+        ("30208", 5.0, true),
+        ("29412 E", 2.7, false),
+        ("22208 E", 0.5, true),
+        ("unknown", 5.0, false),
+    ] {
+        let text = format!(
+            "designation,d [mm],D [mm],C [N],C0 [N]\n{designation},40,80,30000,{}\n",
+            3e4 * ratio
+        );
+        let found = read(&text, &Options::default()).unwrap();
+        assert_eq!(warned(&found).contains("C0/C"), told, "{designation} {ratio}");
+    }
+    assert!(
+        all.iter()
+            .all(|kind| plausible::STATIC_TO_DYNAMIC.iter().any(|row| row.0 == *kind))
+    );
+}
+
+#[test]
+fn the_own_format_is_written_unchanged() {
+    let text = "designation,kind,series,bore [mm],outside [mm],width [mm],c [N],c0 [N],e [-],y [-],y0 [-],estimated,confidence,basis\n\
+                30208,tapered_roller,302,40,80,19.75,61800,68100,0.37,1.62,0.89,y0,high,two makers\n\
+                51208,thrust_ball,512,40,68,19,44400,98000,,,,,medium,one maker\n";
+    let found = read(text, &Options::default()).unwrap();
+    assert_eq!(lines(&found.text), text.lines().collect::<Vec<_>>());
+    assert!(found.warnings.is_empty() && !found.report.iter().any(|line| line.starts_with("Not used")));
+}
+
 /// Every key is found by its own name, and no heading belongs to two keys.
 #[test]
 fn headings_are_unambiguous() {

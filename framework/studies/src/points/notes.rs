@@ -10,7 +10,7 @@ use serde_json::Value;
 use gearloss_framework::loads::LEAST_STATIC_SAFETY;
 use gearloss_framework::loss::{Extent, nanowatts};
 use gearloss_framework::registry::{Evidence, Instance};
-use gearloss_framework::resolve::{Resolved, ValueSource, lookup};
+use gearloss_framework::resolve::{ESTIMATED, Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
 
 /// Name of the note of a bearing's static safety.
@@ -285,16 +285,21 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
                 "high" => Evidence::SeveralSources,
                 "medium" => Evidence::OneSource,
                 "low" => Evidence::Recalled,
+                "disputed" => Evidence::Disputed,
+                ESTIMATED => Evidence::Assumed,
                 _ => Evidence::User,
             };
             let owner = path.rsplit_once('.').map_or(path.as_str(), |(owner, _)| owner);
-            if seen.insert((designation, owner)) {
-                add(
+            let (what, because) = if confidence == ESTIMATED {
+                (format!("estimates in catalogue row {designation}"), "a rule".to_owned())
+            } else {
+                (
                     format!("catalogue row {designation}"),
-                    grade,
-                    &format!("confidence {confidence}"),
-                    owner,
-                );
+                    format!("confidence {confidence}"),
+                )
+            };
+            if seen.insert((designation, confidence, owner)) {
+                add(what, grade, &because, owner);
             }
         }
     }

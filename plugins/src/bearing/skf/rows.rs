@@ -216,7 +216,8 @@ fn pick<const N: usize>(rows: Rows<N>, part: &BearingPart) -> Result<[f64; N], L
         ));
     };
     let others = || row_of(rows, "other").filter(|_| is_series_of(part.kind, series));
-    row_of(rows, series).or_else(others).ok_or_else(|| {
+    let akin = || row_of(rows, akin(part.kind, series)?);
+    row_of(rows, series).or_else(others).or_else(akin).ok_or_else(|| {
         (
             format!("skf has no constants for series `{series}` of this kind of bearing"),
             format!("set `series` to one of {}", known()),
@@ -234,18 +235,35 @@ fn is_series_of(kind: BearingKind, series: &str) -> bool {
         BearingKind::TaperedRoller => &["302", "303", "313", "320", "322", "323", "329", "330", "331", "332"],
         _ => &[],
     };
-    known.contains(&digits.as_str())
+    // `T2ED050` and the like of ISO 355.
+    known.contains(&digits.as_str()) || is_of_iso_355(kind, series)
 }
 
-/// True if the catalogue has no row for the series itself, so that its row of all other series applies.
-pub fn is_of_other_series(part: &BearingPart) -> bool {
+/// True for the series `T` of tapered roller bearings with designations of ISO 355, with or without its digit and letters.
+fn is_of_iso_355(kind: BearingKind, series: &str) -> bool {
+    let rest = series.trim().strip_prefix('T');
+    kind == BearingKind::TaperedRoller
+        && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// The series whose row stands in for a series without one: 213 and 222 share one in the E design.
+fn akin(kind: BearingKind, series: &str) -> Option<&'static str> {
+    (kind == BearingKind::SphericalRoller && series.trim() == "213").then_some("222")
+}
+
+/// What is used instead if the catalogue has no row for the series itself.
+pub fn substitute(part: &BearingPart) -> Option<&'static str> {
     let series = part.series.as_deref().unwrap_or("");
-    match part.kind {
-        BearingKind::AngularContactBall => row_of(ANGULAR, series).is_none(),
-        BearingKind::AngularContactBallDoubleRow => row_of(ANGULAR_DOUBLE, series).is_none(),
-        BearingKind::TaperedRoller => row_of(TAPERED, series).is_none(),
-        _ => false,
-    }
+    let has_row = match part.kind {
+        BearingKind::AngularContactBall => row_of(ANGULAR, series).is_some(),
+        BearingKind::AngularContactBallDoubleRow => row_of(ANGULAR_DOUBLE, series).is_some(),
+        BearingKind::TaperedRoller => row_of(TAPERED, series).is_some(),
+        kind => {
+            let of_akin = "the catalogue has no row for series 213: that of 222, because 213E and 222E share one";
+            return akin(kind, series).map(|_| of_akin);
+        }
+    };
+    (!has_row).then_some("the catalogue has no row for this series: its row of all other series")
 }
 
 /// The constants of a bearing; lengths in mm.
@@ -642,11 +660,36 @@ mod tests {
         // A series of the kind without a row of its own takes that of all others.
         let rows = ["other", "718", "72 B"].map(|series| {
             let part = part(BearingKind::AngularContactBall, series, 65.0);
-            assert_eq!(is_of_other_series(&part), series != "other");
+            assert_eq!(substitute(&part).is_some(), series != "other");
             format!("{:?}", row(&part, false).unwrap())
         });
         assert!(rows.iter().all(|bits| *bits == rows[0]));
         assert!(row(&part(BearingKind::AngularContactBall, "72BE", 65.0), false).is_ok());
+        let same = |kind, a: &str, b: &str| {
+            let [a, b] = [a, b].map(|series| format!("{:?}", row(&part(kind, series, 65.0), false).unwrap()));
+            a == b
+        };
+        assert!(
+            ["70 A", "70 C", "73 B"]
+                .iter()
+                .all(|series| same(BearingKind::AngularContactBall, series, "other"))
+        );
+        assert!(same(BearingKind::AngularContactBallDoubleRow, "33 D", "other"));
+        assert!(
+            ["T", "T2ED"]
+                .iter()
+                .all(|series| same(BearingKind::TaperedRoller, series, "other"))
+        );
+        assert!(row(&part(BearingKind::TaperedRoller, "TX", 65.0), false).is_err());
+        // 213 takes the row of 222, not that of the E design.
+        assert!(same(BearingKind::SphericalRoller, "213", "222") && !same(BearingKind::SphericalRoller, "213", "213E"));
+        assert!(
+            substitute(&part(BearingKind::SphericalRoller, "213", 65.0))
+                .unwrap()
+                .contains("that of 222")
+        );
+        assert_eq!(substitute(&part(BearingKind::SphericalRoller, "213E", 65.0)), None);
+        assert_eq!(substitute(&part(BearingKind::SphericalRoller, "222", 65.0)), None);
         // A pair of single-row bearings is two bearings, not a double row.
         assert!(row(&part(BearingKind::AngularContactBallDoubleRow, "72 BE", 65.0), false).is_err());
         let needle = part(BearingKind::NeedleCage, "", 30.0);
