@@ -54,8 +54,10 @@ struct Cooling {
     conductance: f64,
     /// \[degC\]; `None`: that of the oil.
     surroundings: Option<f64>,
-    /// Temperature of the fresh oil if there is one, as before.
-    supply: Option<Option<f64>>,
+    /// True if fresh oil carries heat away.
+    fed: bool,
+    /// Temperature of the fresh oil, as before.
+    supply: Option<f64>,
 }
 
 /// The film at a point.
@@ -111,7 +113,8 @@ impl Journal {
             cooling: film.conductance.map(|conductance| Cooling {
                 conductance,
                 surroundings: film.surroundings,
-                supply: film.fed.then_some(film.supply),
+                fed: film.fed,
+                supply: film.supply,
             }),
         })
     }
@@ -185,7 +188,7 @@ impl Journal {
     fn balance<R: Real>(&self, at: &BearingAt<'_, R>, cooling: &Cooling) -> Result<R, Undefined> {
         let stated = |temperature: Option<f64>| temperature.map_or(at.temperature, R::constant);
         let surroundings = stated(cooling.surroundings);
-        let supply = cooling.supply.map(stated);
+        let supply = cooling.fed.then(|| stated(cooling.supply));
         let excess = |temperature: R| {
             let film = self.film_at(at, temperature);
             let kept = film.moment() * at.speed.abs() - (temperature - surroundings) * cooling.conductance;
