@@ -1,6 +1,8 @@
 //! Friction of bearings: rolling bearings, plain bearings, thrust washers.
 
+mod clearance_class;
 mod film;
+mod internal;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,9 +15,6 @@ use crate::mechanism::{Component, Mechanism, Scalar};
 use crate::real::{Dual, Lane, Points, Real};
 use crate::resolve::basic_designation;
 use crate::{answered_by, context};
-
-mod clearance_class;
-mod internal;
 
 pub use film::BearingFilm;
 pub use internal::{ElementMaterial, ElementRow, Elements, InternalGeometry};
@@ -592,8 +591,6 @@ context! {
         mu_ehl: 0.05 in 0.001..=0.2 from "`mu_ehl` of the oil, or its kind",
         /// Pressure-viscosity coefficient of the oil. [1/GPa]
         alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative decrease of the viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
         /// Thermal conductivity of the oil. [W/(m K)]
         conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
         /// Eyring stress stated for the oil; zero if none is stated. [MPa]
@@ -645,7 +642,6 @@ impl Component for Bearing {
             mu_bl: oil.mu_bl,
             mu_ehl: oil.mu_ehl,
             alpha: oil.alpha,
-            beta: oil.beta,
             conductivity: oil.conductivity,
             tau0: oil.tau0,
             limiting_slope: oil.limiting_slope,
