@@ -265,6 +265,10 @@ pub fn balance(row: &impl Row, given: &Axes<Given>) -> Result<Equilibrium, Unbal
     let mut best = (off.amax(), u);
     for _ in 0..STEPS {
         let size = off.amax();
+        // Forces beyond all numbers, such as those of an absurd speed.
+        if !(off.sum() + at.stiffness.sum()).is_finite() {
+            return Err(Unbalanced);
+        }
         if size < best.0 {
             best = (size, u);
         }
@@ -305,7 +309,8 @@ pub fn balance(row: &impl Row, given: &Axes<Given>) -> Result<Equilibrium, Unbal
     }
     let (residual, u) = best;
     let at = reaction(row, &u);
-    if residual > (ACCEPTED * applied).max(10.0 * ROUNDING * at.loads) {
+    let is_balanced = residual <= (ACCEPTED * applied).max(10.0 * ROUNDING * at.loads);
+    if !(is_balanced && at.stiffness.sum().is_finite()) {
         return Err(Unbalanced);
     }
     let scaled =
