@@ -233,7 +233,13 @@ fn thrust_that_is_not_counted_is_reported_with_what_to_state() {
             assert!(said.contains(words), "{words}\n{said}");
         }
     }
-    // The help for a deep groove ball bearing, followed: it takes the thrust that A induces.
+}
+
+#[test]
+fn followed_help_makes_a_pair() {
+    let case = Case::new("opposed-bearings", "helped");
+    let b = "kind: tapered_roller, bore: 30 mm, outside: 62 mm, y: 1.6666666666666667, axial: right";
+    // Of a deep groove ball bearing: it takes the thrust that A induces.
     let helped = changed(&case, &[(b, "designation: \"6206\", axial: right, induced_thrust: 0")]);
     assert!(!checked(&case, &helped).1.contains("W0308"));
     assert_eq!(numbers(&bearings(&case, &helped, &[]), "axial_n"), [900.0, 1400.0]);

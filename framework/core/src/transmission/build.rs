@@ -18,6 +18,7 @@ use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::{Diagnostic, classify};
 use crate::language::Language;
+use crate::loads::ShaftLoads;
 use crate::mechanism::Mechanism;
 use crate::mechanism::ModelRef;
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
@@ -92,16 +93,7 @@ impl Transmission {
             &mut found,
         );
         classify(&mut found, codes::POWER_FLOW);
-        let designs = models.designs();
-        let loads = shaft_loads(
-            entry,
-            members,
-            &frame.meshes,
-            (supports, &designs),
-            &mut memory,
-            &mut found,
-            &mut warnings,
-        );
+        let loads = models.shaft_loads(&frame, &mut memory, &mut found, &mut warnings);
         let load_factors = load_factors(supports, ports, &mut found);
         let imported = imported_loads(entry, files, ports, &states, supports, &mut found);
         classify(&mut found, codes::SUPPORT);
@@ -114,7 +106,7 @@ impl Transmission {
         };
         let (instances, cells) = build.finish();
         let rated: Vec<RatedSupport> = models.components.iter().filter_map(rated).collect();
-        let pairs = BearingPair::all(&loads, supports, &designs);
+        let pairs = BearingPair::all(&loads, supports, &models.designs());
         let parts = in_document_order(resolved, models.parts);
         if let Some(network) = &mut network {
             warnings.extend(network.warnings());
@@ -307,6 +299,26 @@ impl Models {
             }
         }
         designs
+    }
+
+    /// Loads of the supports; `None` if they cannot be found.
+    fn shaft_loads(
+        &self,
+        frame: &Frame,
+        memory: &mut Memory,
+        found: &mut Vec<Diagnostic>,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Option<Arc<ShaftLoads>> {
+        let supports = (&self.supports[..], &self.designs()[..]);
+        shaft_loads(
+            &frame.entry,
+            &frame.members,
+            &frame.meshes,
+            supports,
+            memory,
+            found,
+            warnings,
+        )
     }
 
     fn new(
