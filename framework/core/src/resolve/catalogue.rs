@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde_json::{Map, Value};
 
@@ -173,8 +174,8 @@ impl CatalogueTable {
             return read(name);
         }
         let is_table = |file: &String| {
-            let file = file.to_ascii_lowercase();
-            file.ends_with(".csv") || file.ends_with(".xlsx")
+            let extension = Path::new(file).extension();
+            extension.is_some_and(|kind| kind.eq_ignore_ascii_case("csv") || kind.eq_ignore_ascii_case("xlsx"))
         };
         let tables: Vec<String> = files.list(name)?.into_iter().filter(is_table).collect();
         if tables.is_empty() {

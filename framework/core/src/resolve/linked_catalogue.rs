@@ -1,7 +1,6 @@
 //! Catalogues of linked crates: a gearbox names a few of many rows, so a row is read when it is asked for.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use super::catalogue::{self, CatalogueRow, CatalogueTable};
@@ -12,7 +11,8 @@ use crate::document::data::cells::name_and_unit;
 pub struct LinkedCatalogue {
     /// Columns of each text.
     texts: Vec<Vec<(String, Option<String>)>>,
-    lines: BTreeMap<&'static str, Line>,
+    /// In the order of the designations.
+    lines: Vec<(&'static str, Line)>,
     table: OnceLock<CatalogueTable>,
 }
 
@@ -51,28 +51,33 @@ impl LinkedCatalogue {
         }
         let text = self.texts.len();
         self.texts.push(columns);
-        let mut twice = None;
         for (cells, number) in lines {
             let designation = cells.split(',').next().unwrap_or_default();
-            match self.lines.get(designation) {
-                _ if designation.is_empty() => {
-                    return Err(Fault::Form(format!("line {number}: no designation")));
-                }
-                Some(known) if known.text == text => {
-                    return Err(Fault::Form(format!("line {number}: `{designation}` occurs twice")));
-                }
-                Some(_) => twice = twice.or(Some(designation)),
-                None => {
-                    self.lines.insert(designation, Line { text, number, cells });
-                }
+            if designation.is_empty() {
+                return Err(Fault::Form(format!("line {number}: no designation")));
             }
+            self.lines.push((designation, Line { text, number, cells }));
         }
-        twice.map_or(Ok(()), |designation| Err(Fault::Twice(designation)))
+        self.lines
+            .sort_by_key(|(designation, line)| (*designation, line.text, line.number));
+        let mut pairs = self.lines.windows(2);
+        let twice = pairs
+            .find(|pair| pair[0].0 == pair[1].0)
+            .map(|pair| (pair[1], pair[0].1.text == text));
+        self.lines.dedup_by_key(|(designation, _)| *designation);
+        match twice {
+            None => Ok(()),
+            Some(((designation, line), true)) => Err(Fault::Form(format!(
+                "line {}: `{designation}` occurs twice",
+                line.number
+            ))),
+            Some(((designation, _), false)) => Err(Fault::Twice(designation)),
+        }
     }
 
     /// The designations, in order.
     pub fn designations(&self) -> impl Iterator<Item = &'static str> + Clone {
-        self.lines.keys().copied()
+        self.lines.iter().map(|(designation, _)| *designation)
     }
 
     /// The row of a designation as it is written.
@@ -80,7 +85,8 @@ impl LinkedCatalogue {
     /// # Errors
     /// A cell that is not a number.
     pub fn row(&self, designation: &str) -> Option<Result<CatalogueRow, String>> {
-        self.lines.get(designation).map(|line| self.read(line))
+        let place = self.lines.binary_search_by_key(&designation, |(known, _)| known).ok()?;
+        Some(self.read(&self.lines[place].1))
     }
 
     fn read(&self, line: &Line) -> Result<CatalogueRow, String> {
@@ -96,7 +102,7 @@ impl LinkedCatalogue {
 
     /// Rows that cannot be read, each with the reason.
     pub fn faults(&self) -> impl Iterator<Item = String> {
-        self.lines.values().filter_map(|line| self.read(line).err())
+        self.lines.iter().filter_map(|(_, line)| self.read(line).err())
     }
 
     /// All rows; those that [cannot be read](Self::faults) are left out.
