@@ -129,7 +129,14 @@ fn the_two_stage_gearbox_has_its_geometry() {
             .any(|line| line.contains("cylindrical_gear 16: tip_diameter 1 mm does not fit"))
     );
     let (_, transmission) = gearbox(text);
-    assert!(transmission.warnings.is_empty(), "{:?}", transmission.warnings);
+    // Beside the axial factors of two bearings, which the file lacks.
+    let warnings = transmission.warnings.len();
+    assert_eq!(
+        (warnings, not_counted(&transmission).len()),
+        (2, 2),
+        "{:?}",
+        transmission.warnings
+    );
 }
 
 /// Ratio 2.7922705; power in is power out and the loss; the loss is that of a description by hand.
@@ -188,15 +195,17 @@ fn the_two_stage_gearbox_has_its_load_cases() {
     assert_eq!(shares.len(), 4);
 }
 
+/// Bearings whose induced thrust is not in the loads.
+fn not_counted(transmission: &Transmission) -> Vec<String> {
+    let warnings = transmission.warnings.iter();
+    let found = warnings.filter(|warning| warning.code.is_some_and(|code| code.id() == "W0308"));
+    found.map(|warning| warning.path.clone()).collect()
+}
+
 /// The file states no axial factor of its tapered roller bearings.
 #[test]
 fn opposed_tapered_bearings_are_a_pair_once_their_axial_factor_is_stated() {
     let text = imported(TWO_STAGE).gearbox;
-    let not_counted = |transmission: &Transmission| -> Vec<String> {
-        let warnings = transmission.warnings.iter();
-        let found = warnings.filter(|warning| warning.code.is_some_and(|code| code.id() == "W0308"));
-        found.map(|warning| warning.path.clone()).collect()
-    };
     let (_, transmission) = gearbox(&text);
     assert_eq!(
         not_counted(&transmission),
