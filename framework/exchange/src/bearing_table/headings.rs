@@ -23,7 +23,7 @@ pub(super) struct Key {
 }
 
 /// All keys, in the order of the catalogue.
-pub(super) const KEYS: [Key; 20] = [
+pub(super) const KEYS: [Key; 21] = [
     Key {
         name: "designation",
         unit: "",

@@ -11,7 +11,7 @@ use gearloss_framework::loads::LEAST_STATIC_SAFETY;
 use gearloss_framework::loss::{Extent, nanowatts};
 use gearloss_framework::registry::{Evidence, Instance};
 use gearloss_framework::resolve::{ESTIMATED, Resolved, ValueSource, lookup};
-use gearloss_framework::transmission::Transmission;
+use gearloss_framework::transmission::{BearingPair, Transmission};
 
 /// Name of the note of a bearing's static safety.
 pub const STATIC_SAFETY: &str = "S0 = C0/P0";
@@ -268,7 +268,7 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
         let because = "capacities and conductances by size";
         add("network: auto".to_owned(), Evidence::Assumed, because, path);
     }
-    for bearing in transmission.pairs().iter().flat_map(|pair| pair.bearings()) {
+    for bearing in transmission.pairs().iter().flat_map(BearingPair::bearings) {
         if let Some((grade, because)) = bearing.induced.basis.evidence() {
             let what = format!("induced thrust by {}", bearing.induced.basis.words());
             add(what, grade, because, &transmission.supports()[bearing.support]);
