@@ -80,7 +80,8 @@ fn prepare(params: Iso16281, cx: &mut Build<'_>) -> Result<Prepared, Diagnostic>
 
 /// What the loads of the elements give.
 struct Distribution {
-    equilibrium: Equilibrium,
+    /// Radial and axial stiffness, where something resists. \[N/m\]
+    stiffness: [Option<f64>; 2],
     greatest: f64,
     pressure: f64,
     loaded: f64,
@@ -168,8 +169,13 @@ fn life_of_rollers(rollers: &Rollers, rotating: Rotating, displacement: &Axes<f6
     sum.powf(-8.0 / 9.0)
 }
 
+/// Radial and axial stiffness.
+fn stiffness(found: &Equilibrium) -> [Option<f64>; 2] {
+    [found.radial_stiffness(), found.axial_stiffness()]
+}
+
 /// From the loads of balls.
-fn of_balls(balls: &Balls, equilibrium: Equilibrium, rotating: Rotating, loads: Vec<BallLoad>) -> Distribution {
+fn of_balls(balls: &Balls, found: &Equilibrium, rotating: Rotating, loads: Vec<BallLoad>) -> Distribution {
     let (mut greatest, mut pressure, mut loaded) = (0.0_f64, 0.0_f64, 0.0);
     for ball in &loads {
         for (contact, load) in balls.contacts().iter().zip(ball.load) {
@@ -179,7 +185,7 @@ fn of_balls(balls: &Balls, equilibrium: Equilibrium, rotating: Rotating, loads: 
         loaded += f64::from(u8::from(ball.load[0] > 0.0));
     }
     Distribution {
-        equilibrium,
+        stiffness: stiffness(found),
         greatest,
         pressure,
         loaded: loaded / balls.geometry().number as f64,
@@ -188,8 +194,8 @@ fn of_balls(balls: &Balls, equilibrium: Equilibrium, rotating: Rotating, loads: 
 }
 
 /// From the loads of rollers.
-fn of_rollers(rollers: &Rollers, equilibrium: Equilibrium, rotating: Rotating) -> Distribution {
-    let displacement = &equilibrium.displacement;
+fn of_rollers(rollers: &Rollers, found: &Equilibrium, rotating: Rotating) -> Distribution {
+    let displacement = &found.displacement;
     let (mut greatest, mut slice, mut loaded) = (0.0_f64, 0.0_f64, 0.0);
     for roller in rollers.loads(displacement) {
         greatest = greatest.max(roller.load);
@@ -204,7 +210,7 @@ fn of_rollers(rollers: &Rollers, equilibrium: Equilibrium, rotating: Rotating) -
             .fold(0.0, f64::max),
         loaded: loaded / rollers.geometry().number as f64,
         life: life_of_rollers(rollers, rotating, displacement),
-        equilibrium,
+        stiffness: stiffness(found),
     }
 }
 
@@ -239,11 +245,11 @@ impl Prepared {
                     let row = balls.at_speed(at.speed);
                     let found = balance(&row, &given).ok()?;
                     let loads = row.loads(&found.displacement).map(|ball| ball.contacts).collect();
-                    Some(of_balls(balls, found, rotating, loads))
+                    Some(of_balls(balls, &found, rotating, loads))
                 } else {
                     let found = balance(balls, &given).ok()?;
                     let loads = balls.loads(&found.displacement).collect();
-                    Some(of_balls(balls, found, rotating, loads))
+                    Some(of_balls(balls, &found, rotating, loads))
                 }
             }
             ElementRow::Rollers(rollers) => {
@@ -256,7 +262,7 @@ impl Prepared {
                     0.0
                 };
                 let found = balance(rollers, &tilted(Axes::loaded(axial, at.radial))).ok()?;
-                Some(of_rollers(rollers, found, rotating))
+                Some(of_rollers(rollers, &found, rotating))
             }
         }
     }
@@ -304,10 +310,7 @@ impl Rating<Bearing> for Prepared {
             .map_or(Bound::NONE, |most| Bound::at_most(most * 1e-6));
         to.add_bounded(&PRESSURE, at.show("p_max", "MPa", found.pressure * 1e-6), bound);
         to.add(&LOADED, at.show("Z_l/Z", "-", found.loaded));
-        for (figure, stiffness) in [
-            (&RADIAL, found.equilibrium.radial_stiffness()),
-            (&AXIAL, found.equilibrium.axial_stiffness()),
-        ] {
+        for (figure, stiffness) in [&RADIAL, &AXIAL].into_iter().zip(found.stiffness) {
             if let Some(stiffness) = stiffness {
                 to.add(figure, at.show(figure.symbol, "N/um", stiffness * 1e-6));
             }
@@ -404,7 +407,6 @@ register_rating!(Bearing, "iso_16281", Iso16281,
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use super::*;
     use gearloss_framework::registry::RatedAlone;
     use gearloss_framework::rolling::{Contact, load_integral};
     use gearloss_framework::testing::{assert_close, rate};

@@ -206,7 +206,11 @@ impl Problem {
     }
 
     /// Stiffness in the directions that are not held, with a small share on the diagonal that makes it definite.
-    fn definite(&self, stiffness: &Matrix, least: f64) -> nalgebra::Cholesky<f64, nalgebra::Const<5>> {
+    fn definite(
+        &self,
+        stiffness: &Matrix,
+        least: f64,
+    ) -> Result<nalgebra::Cholesky<f64, nalgebra::Const<5>>, Unbalanced> {
         let free = Matrix::from_fn(|i, j| match (self.is_held[i] || self.is_held[j], i == j) {
             (false, _) => stiffness[(i, j)],
             (true, true) => 1.0,
@@ -214,13 +218,14 @@ impl Problem {
         });
         let size = (0..5).map(|i| stiffness[(i, i)]).fold(0.0_f64, f64::max);
         let mut shift = least.max(1e-13 * size);
-        loop {
-            let shifted = free + Matrix::identity() * shift;
-            match nalgebra::Cholesky::new(shifted) {
-                Some(factors) => return factors,
+        while shift.is_finite() {
+            match nalgebra::Cholesky::new(free + Matrix::identity() * shift) {
+                Some(factors) => return Ok(factors),
                 None => shift = 100.0 * shift.max(f64::MIN_POSITIVE),
             }
         }
+        // Overflow.
+        Err(Unbalanced)
     }
 }
 
@@ -276,7 +281,7 @@ pub fn balance(row: &impl Row, given: &Axes<Given>) -> Result<Equilibrium, Unbal
         if size <= rounding.max(WANTED * applied) {
             break;
         }
-        let mut step = problem.definite(&at.stiffness, 1e-6 * size / reach).solve(&-off);
+        let mut step = problem.definite(&at.stiffness, 1e-6 * size / reach)?.solve(&-off);
         let length = step.amax();
         if !length.is_finite() {
             return Err(Unbalanced);
@@ -315,7 +320,7 @@ pub fn balance(row: &impl Row, given: &Axes<Given>) -> Result<Equilibrium, Unbal
     }
     let scaled =
         |v: &Vector, factor: fn(f64, f64) -> f64| Axes::from_array(std::array::from_fn(|i| factor(v[i], lengths[i])));
-    let mut compliance = problem.definite(&at.stiffness, 0.0).inverse();
+    let mut compliance = problem.definite(&at.stiffness, 0.0)?.inverse();
     for i in (0..5).filter(|i| problem.is_held[*i] || at.loads == 0.0) {
         compliance[(i, i)] = f64::INFINITY;
     }

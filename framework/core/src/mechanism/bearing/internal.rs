@@ -372,12 +372,7 @@ mod tests {
     #[test]
     fn an_angular_contact_bearing() {
         let mut bearing = part(BearingKind::AngularContactBall, 90.0, 160.0);
-        assert!(
-            bearing
-                .rolling_elements()
-                .unwrap_err()
-                .contains("`contact_angle`")
-        );
+        assert!(bearing.rolling_elements().unwrap_err().contains("`contact_angle`"));
         bearing.e = Some(1.14);
         let found = balls(&bearing);
         assert_close(found.contact_angle.to_degrees(), 40.0, 1e-12);

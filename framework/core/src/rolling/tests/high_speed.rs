@@ -160,3 +160,15 @@ fn unloaded_balls_run_on_the_outer_ring() {
         assert!(ball.contacts.angle[1].abs() < 1e-9);
     }
 }
+
+/// Forces that overflow are no equilibrium, and the search ends.
+#[test]
+fn an_impossible_speed_has_no_equilibrium() {
+    let bearing = bearing(steel());
+    for speed in [1e20, 1e150, 1e299, f64::INFINITY] {
+        let found = balance(&bearing.at_speed(speed), &Axes::loaded(3000.0, 20_000.0));
+        assert!(found.is_err() || speed < 1e100, "{speed}: {found:?}");
+    }
+    let found = balance(&bearing, &Axes::loaded(f64::NAN, 1.0));
+    assert_eq!(found, Err(Unbalanced));
+}
