@@ -289,7 +289,7 @@ fn models_and_keys_are_offered(server: &mut LanguageServer) {
                 "{name}: {types:#?}\n{text}"
             );
         }
-        assert!(!has(&types, "schlenk") && types.len() == 10, "{types:#?}");
+        assert!(!has(&types, "schlenk") && types.len() == 13, "{types:#?}");
     }
     for text in [
         bearing("bearing:\n    type: skf\n    |"),
