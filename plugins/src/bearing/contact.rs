@@ -202,7 +202,9 @@ impl Traction for Flow {
     }
 
     fn stress(&self, pressed: Pressed, speed: f64) -> f64 {
-        let film = (self.tau0 * (pressed.thinning * speed).asinh()).min(pressed.limit);
+        let shear = pressed.thinning * speed;
+        // The inverse hyperbolic sine; its digits for small shear do not matter in a sum.
+        let film = (self.tau0 * (shear + (shear * shear + 1.0).sqrt()).ln()).min(pressed.limit);
         film + (pressed.boundary - film) * self.boundary
     }
 }
@@ -217,11 +219,41 @@ struct Powers {
 }
 
 impl Powers {
-    fn add(&mut self, other: &Self) {
-        self.rolling += other.rolling;
-        self.hysteresis += other.hysteresis;
-        self.sliding += other.sliding;
-        self.rib += other.rib;
+    /// Adds the powers of some equal elements.
+    fn add(&mut self, other: &Self, count: f64) {
+        self.rolling += count * other.rolling;
+        self.hysteresis += count * other.hysteresis;
+        self.sliding += count * other.sliding;
+        self.rib += count * other.rib;
+    }
+}
+
+/// The oil at the inlets.
+fn inlet_oil(at: &BearingAt<'_>) -> InletOil {
+    InletOil {
+        eta: at.nu * at.rho,
+        alpha: at.alpha,
+        beta: at.beta,
+        conductivity: at.conductivity,
+    }
+}
+
+/// The loads on the ring; the least thrust that a contact angle needs, if less is given.
+fn loads_on_ring(at: &BearingAt<'_>, angle: f64) -> Axes<Given> {
+    let axial = if angle > 0.0 {
+        let least = at.radial * angle.tan();
+        if least > 0.0 {
+            at.check(&THRUST, at.axial / least);
+        }
+        at.axial.max(ENOUGH * least)
+    } else {
+        at.axial
+    };
+    let given = Axes::loaded(axial, at.radial);
+    if at.tilting > 0.0 {
+        given.with_moment(at.tilting)
+    } else {
+        given
     }
 }
 
@@ -235,37 +267,9 @@ impl Contacts {
         }
     }
 
-    fn oil(&self, at: &BearingAt<'_>) -> InletOil {
-        InletOil {
-            eta: at.nu * at.rho,
-            alpha: at.alpha,
-            beta: at.beta,
-            conductivity: at.conductivity,
-        }
-    }
-
-    /// The loads on the ring; the least thrust that a contact angle needs, if less is given.
-    fn given(&self, at: &BearingAt<'_>, angle: f64) -> Axes<Given> {
-        let axial = if angle > 0.0 {
-            let least = at.radial * angle.tan();
-            if least > 0.0 {
-                at.check(&THRUST, at.axial / least);
-            }
-            at.axial.max(ENOUGH * least)
-        } else {
-            at.axial
-        };
-        let given = Axes::loaded(axial, at.radial);
-        if at.tilting > 0.0 {
-            given.with_moment(at.tilting)
-        } else {
-            given
-        }
-    }
-
     /// Powers of one ball.
     fn ball(&self, at: &BearingAt<'_>, balls: &Balls, ball: &BallAtSpeed, film_ratio: &mut f64) -> Powers {
-        let (geometry, oil) = (balls.geometry(), self.oil(at));
+        let (geometry, oil) = (balls.geometry(), inlet_oil(at));
         let modulus = 2.0 * geometry.balls.contact_modulus(&geometry.rings);
         let (speed, diameter) = (at.speed.abs(), geometry.diameter);
         let mut powers = Powers::default();
@@ -334,7 +338,7 @@ impl Contacts {
     /// Powers of all balls, and the largest load.
     fn of_balls(&self, at: &BearingAt<'_>, balls: &Balls) -> Result<(Powers, f64), Undefined> {
         let speed = at.speed.abs();
-        let given = self.given(at, balls.geometry().contact_angle);
+        let given = loads_on_ring(at, balls.geometry().contact_angle);
         let moving = balls.at_speed(speed);
         let is_fast = at.part.mean_diameter().mm() * speed.rpm() > FAST;
         let displacement = if is_fast {
@@ -344,19 +348,28 @@ impl Contacts {
         };
         let displacement = displacement.map_err(|_| unbalanced(at))?.displacement;
         let (mut powers, mut largest, mut ratio) = (Powers::default(), 0.0_f64, 0.0);
-        let mut add = |ball: BallAtSpeed| {
+        let number = balls.geometry().number;
+        let mut add = |(place, ball): (usize, BallAtSpeed)| {
             let mut own = 0.0;
-            powers.add(&self.ball(at, balls, &ball, &mut own));
+            // All loads are in the plane of the first ball, so that balls on both sides of it are equal.
+            let is_single = place == 0 || 2 * place == number;
+            let count = if is_single { 1.0 } else { 2.0 };
+            powers.add(&self.ball(at, balls, &ball, &mut own), count);
             if ball.contacts.load[0] > largest {
                 (largest, ratio) = (ball.contacts.load[0], own);
             }
         };
         if is_fast {
-            moving.loads(&displacement).for_each(&mut add);
+            moving
+                .loads(&displacement)
+                .take(number / 2 + 1)
+                .enumerate()
+                .for_each(&mut add);
         } else {
-            balls.loads(&displacement).for_each(|contacts| {
+            let half = balls.loads(&displacement).take(number / 2 + 1);
+            half.enumerate().for_each(|(place, contacts)| {
                 let motion = moving.motion(contacts.angle.map(|angle| [angle.sin(), angle.cos()]));
-                add(BallAtSpeed { contacts, motion });
+                add((place, BallAtSpeed { contacts, motion }));
             });
         }
         at.observe(&LAMBDA, ratio);
@@ -366,9 +379,9 @@ impl Contacts {
     /// Powers of all rollers, and the largest load.
     fn of_rollers(&self, at: &BearingAt<'_>, rollers: &Rollers) -> Result<(Powers, f64), Undefined> {
         let geometry = rollers.geometry();
-        let given = self.given(at, geometry.contact_angle);
+        let given = loads_on_ring(at, geometry.contact_angle);
         let found = balance(rollers, &given).map_err(|_| unbalanced(at))?;
-        let (oil, speed) = (self.oil(at), at.speed.abs());
+        let (oil, speed) = (inlet_oil(at), at.speed.abs());
         let (diameter, cos) = (geometry.diameter, geometry.contact_angle.cos());
         let raceways = [-1.0, 1.0].map(|side| 0.5 * (geometry.pitch_diameter + side * diameter * cos));
         let mean = speed * raceways[0] * raceways[1] / (raceways[0] + raceways[1]);

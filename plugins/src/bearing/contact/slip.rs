@@ -10,12 +10,12 @@ use gearloss_framework::rolling::Ellipse;
 
 /// Nodes and weights of Gauss for six points between -1 and 1.
 const GAUSS: [[f64; 2]; 6] = [
-    [-0.932_469_514_203_152_1, 0.171_324_492_379_170_36],
+    [-0.932_469_514_203_152, 0.171_324_492_379_170_36],
     [-0.661_209_386_466_264_5, 0.360_761_573_048_138_6],
     [-0.238_619_186_083_196_9, 0.467_913_934_572_691_04],
     [0.238_619_186_083_196_9, 0.467_913_934_572_691_04],
     [0.661_209_386_466_264_5, 0.360_761_573_048_138_6],
-    [0.932_469_514_203_152_1, 0.171_324_492_379_170_36],
+    [0.932_469_514_203_152, 0.171_324_492_379_170_36],
 ];
 /// Places along half an ellipse.
 const ANGLES: usize = 16;
@@ -25,8 +25,8 @@ static PLACES: LazyLock<[(f64, f64); ANGLES]> = LazyLock::new(|| {
 });
 /// Square of y0 over a of Coulomb's friction without spin: the root of t - t^3/3 = 1/3.
 const COULOMB: f64 = 0.347_296_355_333_860_7 * 0.347_296_355_333_860_7;
-/// Steps towards the lines of pure rolling. The power is stationary there, so that few suffice.
-const STEPS: usize = 3;
+/// Steps towards the lines of pure rolling. The power is stationary there, so that two suffice.
+const STEPS: usize = 2;
 
 /// Stress of sliding surfaces at a pressure.
 pub trait Traction {

@@ -61,7 +61,10 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
         }
         if !found.is_empty() {
             let start = if words.is_empty() {
-                format!("At {} operating points ", points.len())
+                match points.len() {
+                    1 => "At the operating point ".to_owned(),
+                    count => format!("At {count} operating points "),
+                }
             } else {
                 String::new()
             };
