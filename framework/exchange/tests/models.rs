@@ -14,6 +14,9 @@ use gearloss_studies::study::Study;
 use crate::common::{PLANETARY, THREE_STAGE, TWO_STAGE, WORM, data, gearbox, imported, language, refused, text};
 use crate::formats::json_of;
 
+/// Loss of the two-stage gearbox in its first load case. \[W\]
+const LOSS: f64 = 451.4239;
+
 /// One point of the first gear of an imported gearbox.
 fn point(imported: &Imported, gear: &str, torque: f64, rpm: f64) -> PointResult {
     let (_, transmission) = gearbox(&imported.gearbox);
@@ -129,17 +132,11 @@ fn the_two_stage_gearbox_has_its_geometry() {
             .any(|line| line.contains("cylindrical_gear 16: tip_diameter 1 mm does not fit"))
     );
     let (_, transmission) = gearbox(text);
-    // Beside the axial factors of two bearings, which the file lacks.
-    let warnings = transmission.warnings.len();
-    assert_eq!(
-        (warnings, not_counted(&transmission).len()),
-        (2, 2),
-        "{:?}",
-        transmission.warnings
-    );
+    assert!(transmission.warnings.is_empty(), "{:?}", transmission.warnings);
 }
 
-/// Ratio 2.7922705; power in is power out and the loss; the loss is that of a description by hand.
+/// Ratio 2.7922705; power in is power out and the loss. Without both tapered bearings the loss is that of a description by hand, 404.7132 W;
+/// they add 26.195 W by the forces on the shaft and 20.516 W by the thrust that they induce in each other.
 #[test]
 fn the_two_stage_gearbox_is_solved() {
     let imported = imported(TWO_STAGE);
@@ -153,7 +150,17 @@ fn the_two_stage_gearbox_is_solved() {
     let (input, output, loss) = (solved.input.unwrap(), solved.output.unwrap(), solved.loss.unwrap());
     near(input - output, loss, 1e-6 * input);
     near(input, 567.0 * 543.0 * PI / 30.0, 1e-6 * input);
-    near(loss, 404.7132, 1e-3);
+    near(loss, LOSS, 1e-3);
+    let without = imported.gearbox.lines().map(|line| match line {
+        line if line.contains("\"33014") || line.contains("\"33012") => line.replace(" }", ", model: none }"),
+        line => line.to_owned(),
+    });
+    let without: Vec<String> = without.collect();
+    let by_hand = Imported {
+        gearbox: without.join("\n"),
+        ..imported
+    };
+    near(point(&by_hand, "only", 567.0, 543.0).loss.unwrap(), 404.7132, 1e-3);
 }
 
 /// 20, 30, 35 and 15 % of the time, forces and temperatures of each case.
@@ -175,7 +182,7 @@ fn the_two_stage_gearbox_has_its_load_cases() {
     let study = study(&imported);
     let cases = load_cases(&study);
     assert_eq!(cases.len(), 4);
-    near(cases[0].loss_w.unwrap(), 404.7132, 1e-3);
+    near(cases[0].loss_w.unwrap(), LOSS, 1e-3);
     let outcome = StudyRun::new(language(), &study)
         .analysis("load_spectrum_losses")
         .unwrap();
@@ -202,22 +209,31 @@ fn not_counted(transmission: &Transmission) -> Vec<String> {
     found.map(|warning| warning.path.clone()).collect()
 }
 
-/// The file states no axial factor of its tapered roller bearings.
+/// Their axial factors are in the catalogue; without them they are no pair, which is said.
 #[test]
-fn opposed_tapered_bearings_are_a_pair_once_their_axial_factor_is_stated() {
+fn opposed_tapered_bearings_are_a_pair() {
     let text = imported(TWO_STAGE).gearbox;
+    let (_, transmission) = gearbox(&text);
+    assert!(not_counted(&transmission).is_empty());
+    let pairs = transmission.pairs();
+    assert_eq!(pairs.len(), 1);
+    let ratios: Vec<f64> = pairs[0].bearings().map(|bearing| bearing.induced.ratio).collect();
+    assert_eq!(ratios, [0.5 / 2.14, 0.5 / 1.82]);
+    let unknown = |designation: &str| {
+        let data =
+            "kind: tapered_roller, bore: 70 mm, outside: 110 mm, width: 31 mm, c: 130 kN, c0: 200 kN, model: none";
+        (format!("designation: \"{designation}\""), data)
+    };
+    let text = ["33014", "33012"]
+        .map(unknown)
+        .iter()
+        .fold(text, |text, (known, data)| text.replace(known, data));
     let (_, transmission) = gearbox(&text);
     assert_eq!(
         not_counted(&transmission),
         ["bearings.bearing_34", "bearings.bearing_35"]
     );
     assert!(transmission.pairs().is_empty());
-    let stated = text.replace("kind: tapered_roller", "kind: tapered_roller, y: 1.6");
-    let (_, transmission) = gearbox(&stated);
-    assert!(not_counted(&transmission).is_empty());
-    let pairs = transmission.pairs();
-    assert_eq!(pairs.len(), 1);
-    assert!(pairs[0].bearings().all(|bearing| bearing.induced.ratio == 0.3125));
 }
 
 /// Speeds and torque stand in the components; three bearings on one shaft need its sections.
@@ -250,16 +266,7 @@ fn the_three_stage_gearbox_is_solved() {
         "bearing_20",
         &["c: 22400 N", "c0: 11400 N", "bore: 25 mm", "outside: 62 mm"],
     );
-    has(
-        text,
-        "bearing_50",
-        &[
-            "\"NUP204-E-XL-TVP2\"",
-            "kind: cylindrical_roller",
-            "series: \"2\"",
-            "c: 32500 N",
-        ],
-    );
+    has(text, "bearing_50", &["\"NUP204-E-XL-TVP2\"", "c: 32500 N"]);
     let missing = imported.report.iter().any(|line| line.starts_with("- the oil: "));
     assert!(missing, "{:?}", imported.report);
     assert!(!text.contains("model: none"), "all bearings have losses");

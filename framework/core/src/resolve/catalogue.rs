@@ -16,6 +16,7 @@ use crate::document::data::TableForm;
 use crate::document::data::cells::{self, FoundColumn};
 use crate::document::{Diagnostic, Dimension, Unit};
 use crate::language::{LUBRICANTS, Language};
+use crate::maker;
 use crate::mechanism::Component as _;
 use crate::mechanism::bearing::Bearing;
 use crate::registry::Files;
@@ -132,6 +133,13 @@ impl CatalogueTable {
                 .collect(),
             about: None,
         };
+        // `SKF 6207-2RS`: the maker is no part of a designation.
+        if hits.rows.is_empty()
+            && with_suffixes
+            && let Some((_, rest)) = maker::before(text)
+        {
+            return self.search(rest, with_suffixes);
+        }
         if hits.rows.is_empty()
             && with_suffixes
             && let Some(read) = bearing_designation::read(text, self.0.keys().map(String::as_str))
@@ -143,7 +151,7 @@ impl CatalogueTable {
             hits.rows.push((text.to_owned(), row));
             hits.about = Some(read.words());
         }
-        // `SKF 6207`: the maker is no part of a designation.
+        // Nor is one that is not known.
         if hits.rows.is_empty()
             && let Some((maker, rest)) = text.trim().split_once(' ')
             && maker.chars().all(char::is_alphabetic)
