@@ -583,7 +583,7 @@ mod tests {
         let part = part(TAPERED);
         let rib = r#"{ "rib": { "taper": 0.0466002910, "height": 1.2e-3 } }"#;
         let model = model(&part, rib);
-        let moment = 16.0 * model.rib_torque(14.17_f64.to_radians(), 17e-3) * 1531.864_298 * 62.54e-3 / 17e-3;
+        let moment = 16.0 * model.rib_torque(14.17_f64.to_radians(), 17e-3) * 1_531.864_298 * 62.54e-3 / 17e-3;
         assert_close(1e3 * moment, 252.094_99, 2e-4);
     }
 

@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use gearloss_framework::registry::Files;
 use gearloss_framework::resolve::{basic_designation, read_designation};
 use gearloss_framework::testing::language;
 
@@ -147,8 +148,8 @@ fn dimension_series(row: &Row<'_>) -> Option<(&'static str, &'static str)> {
         | ("angular_contact_ball", "73")
         | ("cylindrical_roller", "3")
         | ("self_aligning_ball", "13")
-        | ("spherical_roller", "213") => ("0", "3"),
-        ("four_point_contact_ball", "QJ3") => ("0", "3"),
+        | ("spherical_roller", "213")
+        | ("four_point_contact_ball", "QJ3") => ("0", "3"),
         ("deep_groove_ball", "64") | ("cylindrical_roller", "4") => ("0", "4"),
         ("self_aligning_ball" | "cylindrical_roller", "22") | ("spherical_roller", "222") => ("2", "2"),
         ("self_aligning_ball" | "cylindrical_roller", "23") | ("spherical_roller", "223") => ("2", "3"),
@@ -421,7 +422,7 @@ fn models_name_what_they_lack_of_a_row() {
         }
         let part = serde_json::Value::Object(part);
         for (name, model) in &models {
-            match (mechanism.eval)(registry, &Default::default(), model, &part, &Default::default()) {
+            match (mechanism.eval)(registry, &Files::default(), model, &part, &serde_json::Map::new()) {
                 Ok(_) => *ready.entry(name).or_default() += 1,
                 Err(error) => {
                     let help = error.help.unwrap_or_default();
