@@ -43,8 +43,8 @@ analyses:
 """
 # The plain loop goes over a coarser map: its time per point is the same.
 LOOP = 100
-# Sums of losses over the same map differ by the tolerance of the iterations only.
-SAME = 1e-6
+# Sums of losses over the same map differ by the three Gauss points of the scripts, which have an error of up to 3e-5 of a loss.
+SAME = 1e-5
 
 
 def child(command):
