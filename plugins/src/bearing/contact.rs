@@ -14,7 +14,7 @@
 //! of balls, the loss of a bearing may fall by some per cent while its load grows.
 //!
 //! Steady loads, stationary outer ring, no skidding, pockets of the cage without friction. Flooded rolling laws of rollers are about twice the
-//! measurement of a 32216 in an oil bath (Wingertszahn and others 2023); Zhou and Hoeprich are 13 to 27 % above it. Internal geometry is rarely in
+//! measurement of a 32216 in an oil bath (Wingertszahn and others 2023); Zhou and Hoeprich alone are 13 to 27 % above it. Internal geometry is rarely in
 //! catalogues: what is estimated decides the result, see `internal`. Not for bearings with several rows.
 
 mod rolling;
@@ -140,12 +140,14 @@ fn drag_coefficient() -> f64 {
 
 /// Eyring stress, slope of the limiting stress and boundary friction of an oil for which none is stated. \[Pa, -, -\]
 const USUAL: (f64, f64, f64) = (5e6, 0.07, 0.12);
-/// Density of air. \[kg/m3\]
+/// Density of air at 50 degC and 1 bar. \[kg/m3\]
 const AIR: f64 = 1.1;
-/// Thrust over the least that a contact angle needs, where less is given.
+/// Thrust over the least that a contact angle needs, where less is given; a convention, because at the least one element carries everything.
 const ENOUGH: f64 = 1.05;
-/// Speed factor above which the inertia of balls matters. \[mm/min\]
-const FAST: f64 = 0.3e6;
+/// Speed factor above which the inertia of balls matters, a convention. \[mm/min\]
+pub(crate) const FAST: f64 = 0.3e6;
+/// Branch of an explanation where internal geometry is not stated.
+pub(crate) const ESTIMATED: &str = "internal geometry is estimated from the boundary dimensions: state `internal`";
 
 /// A bearing with the geometry of its elements.
 struct Contacts {
@@ -473,7 +475,7 @@ impl BearingModel for Contacts {
             return Ok(Loss::POWERS);
         }
         if self.elements.is_estimated {
-            at.branch("internal geometry is estimated from the boundary dimensions: state `internal`");
+            at.branch(ESTIMATED);
         }
         let (number, diameter) = match &self.elements.row {
             ElementRow::Balls(balls) => (balls.geometry().number, balls.geometry().diameter),

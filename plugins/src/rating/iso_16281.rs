@@ -26,6 +26,8 @@ use gearloss_framework::rolling::{Axes, BallGeometry, BallLoad, Balls, Equilibri
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::bearing::contact::{ESTIMATED, FAST};
+
 use super::at_least_unless_zero;
 
 const Q_MAX: Figure = Figure::greatest("Q_max", "N", "load of the most loaded rolling element").detail();
@@ -57,7 +59,7 @@ pub struct Iso16281 {
 }
 
 fn inertia_from() -> f64 {
-    3e5
+    FAST
 }
 
 /// The rating with the rolling elements of its bearing.
@@ -278,7 +280,7 @@ impl Rating<Bearing> for Prepared {
             }
         };
         if elements.is_estimated {
-            at.branch("internal geometry is estimated from the boundary dimensions: state `internal`");
+            at.branch(ESTIMATED);
         }
         if elements.is_clearance_assumed {
             at.branch("no clearance in operation is stated: zero, or what the class has more than the normal one");

@@ -246,9 +246,9 @@ pub struct BearingEntry {
     pub limiting_speed: Option<f64>,
     /// Seals or shields of the bearing; default: from the designation, none. Only the model `skf` has their friction.
     pub seals: Option<BearingSeals>,
-    /// Class of the radial internal clearance; default: from the designation. Estimates `internal.clearance`; no loss depends on it.
+    /// Class of the radial internal clearance; default: from the designation. Estimates `internal.clearance`.
     pub clearance: Option<ClearanceClass>,
-    /// Internal geometry, for ratings from the load distribution; default: estimated from the boundary dimensions.
+    /// Internal geometry, for the model `contact` and for ratings from the load distribution; default: estimated from the boundary dimensions.
     pub internal: Option<InternalGeometry>,
     /// Radius of the lowest point of the outer raceway. [mm]
     #[schemars(range(min = 0.5, max = 2500.0))]

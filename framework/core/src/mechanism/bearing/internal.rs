@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 use super::{BearingKind, BearingPart};
 use crate::rolling::{BallGeometry, Balls, Material, Profile, RollerGeometry, Rollers};
 
-/// Internal geometry of a bearing with one row of balls or rollers; what is omitted is estimated from the boundary dimensions. For ratings
-/// from the load distribution.
+/// Internal geometry of a bearing with one row of balls or rollers; what is omitted is estimated from the boundary dimensions. For the
+/// model `contact` and for ratings from the load distribution.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct InternalGeometry {
     /// Number of rolling elements. [-]
