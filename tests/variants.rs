@@ -206,6 +206,8 @@ fn overrides_of_any_kind_follow_each_other() {
             ("bearings.*.radial_factor", 0.9.into()),
             ("gears.*.surface.rq", 0.5.into()),
         ],
+        vec![("surface.rq", 0.5.into()), ("gears.G1.surface.rq", 0.4.into())],
+        vec![("surface.rq", 0.3.into()), ("gears.G1.surface.rq", 0.4.into())],
         vec![("housing.oil.volume", "1.1 l".into())],
         vec![("bearings.B1.designation", "6304".into())],
         vec![

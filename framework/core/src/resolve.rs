@@ -226,6 +226,19 @@ fn surfaces(value: &mut Value, sources: &mut BTreeMap<String, ValueSource>) {
     }
 }
 
+/// The same place in each gear that has the surface of the gearbox and no override of its own there, for a path in that surface.
+fn gears_of_surface(value: &Value, sources: &BTreeMap<String, ValueSource>, path: &str) -> Vec<String> {
+    if path != "surface" && !path.starts_with("surface.") {
+        return Vec::new();
+    }
+    let gears = value.get("gears").and_then(Value::as_object).into_iter().flatten();
+    gears
+        .filter(|(id, _)| sources.get(&format!("gears.{id}.surface")) == Some(&ValueSource::Surface))
+        .map(|(id, _)| format!("gears.{id}.{path}"))
+        .filter(|path| sources.get(path) != Some(&ValueSource::Override))
+        .collect()
+}
+
 fn entries_mut<'a>(
     value: &'a mut Value,
     section: &str,
@@ -436,14 +449,19 @@ fn apply<'o>(
             found.push(no_place(value, pattern, key));
             continue;
         }
-        for path in hits {
+        let shared: Vec<String> = (hits.iter())
+            .flat_map(|path| gears_of_surface(value, sources, path))
+            .collect();
+        let hits = hits.into_iter().map(|path| (path, ValueSource::Override));
+        let shared = shared.into_iter().map(|path| (path, ValueSource::Surface));
+        for (path, source) in hits.chain(shared) {
             match language.checked_in(value, new, &path) {
                 Ok(checked) => {
                     if !paths::write(value, &path, checked) {
                         found.push(Diagnostic::error(&path, "cannot be set here").help("set the key above it"));
                         break;
                     }
-                    sources.insert(path.clone(), ValueSource::Override);
+                    sources.insert(path.clone(), source);
                     written.push((number, path));
                 }
                 Err(more) => {
