@@ -66,7 +66,18 @@ mod on_disk {
         /// Name of this program.
         program: String,
         /// Lock of this program; absent before its first draft.
-        lock: Mutex<Option<File>>,
+        lock: Mutex<Option<Lock>>,
+    }
+
+    /// A lock file that is locked while this lives.
+    #[derive(Debug)]
+    struct Lock(File);
+
+    impl Drop for Lock {
+        fn drop(&mut self) {
+            // Closing is not enough: a process that is being started still has a copy of the open file until its own program begins.
+            let _ = self.0.unlock();
+        }
     }
 
     /// A draft as a file.
@@ -117,7 +128,7 @@ mod on_disk {
                 let file = private(&folder.join(LOCK))?;
                 // On a file system without locks, drafts of a running program are offered, too.
                 let _ = file.try_lock();
-                *lock = Some(file);
+                *lock = Some(Lock(file));
             }
             let path = folder.join(format!("{name}.json"));
             if !path.exists() && fs::read_dir(&folder)?.count() > MOST {
@@ -153,10 +164,10 @@ mod on_disk {
                 let (path, program) = (entry.path(), entry.file_name().to_string_lossy().into_owned());
                 let is_own = program == self.program;
                 // Held until its drafts are read.
-                let lock = File::open(path.join(LOCK)).ok();
+                let lock = File::open(path.join(LOCK)).ok().map(Lock);
                 let is_running = lock
                     .as_ref()
-                    .is_some_and(|lock| matches!(lock.try_lock(), Err(TryLockError::WouldBlock)));
+                    .is_some_and(|Lock(file)| matches!(file.try_lock(), Err(TryLockError::WouldBlock)));
                 if is_running && !is_own {
                     continue;
                 }
