@@ -1,11 +1,16 @@
 //! Friction of contacts that warm themselves, in a whole gearbox: the oil's rheology reaches the meshes, and losses follow duty.
 
-use crate::common::{RPM, language, two_speed_with};
+use crate::common::{RPM, file, language, two_speed_with};
+use gearloss_framework::description::LubricantEntry;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::flow::Tolerance;
+use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
+use gearloss_framework::lubricant::Lubricant;
+use gearloss_framework::lubricant::roelands::Roelands;
 use gearloss_framework::mechanism::Mechanism;
 use gearloss_framework::mechanism::gear_mesh::GearMesh;
+use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 use serde_json::{Value, json};
 
@@ -50,6 +55,24 @@ fn the_rheology_of_the_oil_reaches_the_meshes() {
     for (torque, rpm, oil) in [(50.0, 3000.0, 60.0), (-20.0, 9000.0, 100.0), (100.0, 500.0, 20.0)] {
         assert_eq!(meshes(&written, torque, rpm, oil), meshes(&of_oil, torque, rpm, oil));
     }
+}
+
+/// The film takes a stated pressure-viscosity coefficient, and the exponent `z` is left to the viscosity inside it.
+#[test]
+fn a_stated_pressure_viscosity_makes_the_film() {
+    let language = language();
+    let law = json!({ "type": "ehl_mixed", "thermal": false, "tau0": "5 MPa", "z": 0.6, "limiting_slope": 0.055, "mu_b": 0.13 });
+    let loss = |more: &[(&str, Value)]| {
+        let model = [("meshes.*.model", mesh(law.clone()))];
+        meshes(&built(&language, &[&model, more].concat()), 50.0, 3000.0, 60.0)
+    };
+    let stated = |value: f64| loss(&[("lubricants.sump.pressure_viscosity.value", value.into())]);
+    let gearbox = Gearbox::read(&language, &file("examples/two-speed-ev/gearbox.yaml")).unwrap();
+    let resolved = gearbox.resolve(&language, &Choice::default()).unwrap();
+    let oil: LubricantEntry = serde_json::from_value(resolved.value["lubricants"]["sump"].clone()).unwrap();
+    let of_z = Roelands::coefficient(0.6, Lubricant::new(&oil).unwrap().eta(60.0)) * 1e9;
+    assert!((stated(of_z) / loss(&[]) - 1.0).abs() < 1e-9);
+    assert!(stated(2.0 * of_z) < 0.99 * stated(of_z));
 }
 
 #[test]

@@ -174,7 +174,9 @@ fn solve_follows_overrides_sets_and_the_other_port() {
 fn an_override_of_the_surface_reaches_the_gears() {
     let loss = |sets: &[&str]| {
         let gearbox = "examples/electric-drive-unit/gearbox-40.yaml";
-        let mut args = vec!["solve", gearbox, "--torque", "30 Nm", "--speed", "3000 rpm", "--format", "json"];
+        let mut args = vec![
+            "solve", gearbox, "--torque", "30 Nm", "--speed", "3000 rpm", "--format", "json",
+        ];
         args.extend(sets.iter().flat_map(|set| ["--set", set]));
         let json: serde_json::Value = serde_json::from_str(&out(&args)).unwrap();
         json["loss_w"].as_f64().unwrap()
@@ -182,9 +184,15 @@ fn an_override_of_the_surface_reaches_the_gears() {
     let smooth = loss(&["gears.*.surface.rq=0.1 um"]);
     assert!(smooth < 0.9 * loss(&[]));
     assert_eq!(loss(&["surface.rq=0.1 um"]).to_bits(), smooth.to_bits());
-    assert_eq!(loss(&["surface.rq=0.3 um", "surface.rq=0.1 um"]).to_bits(), smooth.to_bits());
+    assert_eq!(
+        loss(&["surface.rq=0.3 um", "surface.rq=0.1 um"]).to_bits(),
+        smooth.to_bits()
+    );
     let one = loss(&["gears.W2.surface.rq=0.1 um"]);
-    assert_eq!(loss(&["gears.W2.surface.rq=0.1 um", "surface.rq=0.198 um"]).to_bits(), one.to_bits());
+    assert_eq!(
+        loss(&["gears.W2.surface.rq=0.1 um", "surface.rq=0.198 um"]).to_bits(),
+        one.to_bits()
+    );
 }
 
 /// A power is the torque or the speed that is not given.

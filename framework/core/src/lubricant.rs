@@ -345,6 +345,14 @@ impl Lubricant {
         &self.rheology
     }
 
+    /// The stated pressure-viscosity coefficient; `None` with a correlation. \[1/Pa\]
+    pub fn stated_alpha(&self) -> Option<f64> {
+        match self.pressure {
+            PressureViscosity::Constant(alpha) => Some(alpha),
+            _ => None,
+        }
+    }
+
     /// Roelands' law through the oil's viscosity at 40 and 100 degC, with an exponent over pressure; default: the stated one, else
     /// the one that reproduces the oil's pressure-viscosity coefficient at 40 degC.
     pub fn roelands(&self, z: Option<f64>) -> Roelands {

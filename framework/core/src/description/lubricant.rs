@@ -46,7 +46,7 @@ pub struct RheologyEntry {
     #[schemars(range(min = 0.1, max = 50.0))]
     pub tau0: Option<f64>,
     /// Exponent of Roelands' law over pressure; default: the one that reproduces the oil's pressure-viscosity coefficient at 40
-    /// degC. [-]
+    /// degC. Film thicknesses take the coefficient that follows from it, unless `pressure_viscosity.value` is stated. [-]
     #[schemars(range(min = 0.1, max = 1.5))]
     pub z: Option<f64>,
     /// Slope of the limiting shear stress over mean pressure: the maximum traction at high pressure; typically 0.05 to 0.06 for
@@ -219,7 +219,8 @@ pub struct PressureViscosityEntry {
     /// Correlation.
     #[serde(default)]
     pub law: PressureViscosityLaw,
-    /// The coefficient itself, instead of a correlation. [1/GPa]
+    /// The coefficient itself, instead of a correlation, at every temperature. Film thicknesses take it, also beside `rheology.z`, which
+    /// then applies to the viscosity inside the film. [1/GPa]
     #[schemars(range(min = 1.0, max = 60.0))]
     pub value: Option<f64>,
 }

@@ -110,6 +110,10 @@ impl MeshFluid {
                 Some((_, law)) => law.everywhere(),
                 None => Roelands::tangent(supplied.temperature, supplied.eta, supplied.beta, z()),
             },
+            stated_alpha: self
+                .lubricant
+                .as_ref()
+                .and_then(|(lubricant, _)| lubricant.stated_alpha()),
             supplied,
         }
     }
@@ -154,6 +158,8 @@ pub struct Oil<'a, R = f64> {
     pub rheology: &'a Rheology,
     /// Viscosity in the film.
     pub law: Roelands<R>,
+    /// Pressure-viscosity coefficient at the inlet, if the oil states it; otherwise that of the law. \[1/Pa\]
+    pub stated_alpha: Option<f64>,
     /// The supplied oil.
     pub supplied: Supplied<R>,
     lubricant: Option<&'a Lubricant>,
@@ -185,7 +191,9 @@ impl<R: Points> Oil<'_, R> {
             Some(lubricant) => t.lift(|t| lubricant.eta(t)),
             None => self.law.eta(R::ZERO, t),
         };
-        let alpha = Roelands::coefficient(self.law.z, eta);
+        let alpha = self
+            .stated_alpha
+            .map_or_else(|| Roelands::coefficient(self.law.z, eta), R::constant);
         let unit_thermal_load = eta * self.law.beta(t) / self.supplied.conductivity;
         InletOil {
             eta,
