@@ -1,4 +1,4 @@
-//! Instructions of six pieces of work, counted by callgrind: unlike times they do not depend on what else the machine does, so that a
+//! Instructions of seven pieces of work, counted by callgrind: unlike times they do not depend on what else the machine does, so that a
 //! change of one per cent is seen. They are compared with `counts.csv`; with `UPDATE=1` they are written there. They depend on the compiler and
 //! on the width of registers, which is limited to AVX2, the widest that callgrind knows.
 

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::path::Path;
 
-use gearloss_framework::evaluate::{Noting, Point, PowerFlow};
+use gearloss_framework::evaluate::{GivenQuantity, Noting, Point, PowerFlow};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::real::LANES;
@@ -27,7 +27,7 @@ pub struct Piece {
 }
 
 /// All pieces.
-pub const PIECES: [Piece; 6] = [
+pub const PIECES: [Piece; 7] = [
     Piece {
         name: "map",
         element: "point of the two-speed example, set joint, 16 torques of a speed together",
@@ -63,6 +63,12 @@ pub const PIECES: [Piece; 6] = [
         element: "point of the two-speed example, set joint, alone",
         elements: SPEEDS,
         run: single,
+    },
+    Piece {
+        name: "derivative",
+        element: "exact derivatives of that point over its torque",
+        elements: SPEEDS,
+        run: derivative,
     },
 ];
 
@@ -178,5 +184,17 @@ fn single(language: &Language, calls: u32) {
     for call in 0..calls * SPEEDS {
         let speed = [(8000.0 + f64::from(call)) * RPM];
         black_box(t.evaluate(&case, &point(&speed, &[10.0]), &[80.0], &mut scratch).loss());
+    }
+}
+
+fn derivative(language: &Language, calls: u32) {
+    let t = of_set(language);
+    let case = t.case("first", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    for call in 0..calls * SPEEDS {
+        let speed = [(8000.0 + f64::from(call)) * RPM];
+        let given = GivenQuantity::Torque(0);
+        let slopes = t.slopes(&case, &point(&speed, &[10.0]), 80.0, false, given, &mut scratch);
+        black_box(slopes.unwrap_or_else(|fault| panic!("{fault:?}")).loss);
     }
 }
