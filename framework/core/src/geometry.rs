@@ -1,6 +1,7 @@
 //! Involute geometry of pairs: working angles, diameters, the path of contact, load sharing, loss factors.
 
 mod contact_lines;
+pub mod crossed;
 mod factors;
 pub(crate) mod gauss;
 mod involute;
