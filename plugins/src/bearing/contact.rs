@@ -27,8 +27,11 @@ use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::lubricant::roelands::Roelands;
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingAt, BearingKind, BearingModel, ElementRow, Elements};
+use gearloss_framework::real::Real;
 use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
-use gearloss_framework::rolling::{Axes, BallAtSpeed, Balls, Given, Rollers, balance};
+use gearloss_framework::rolling::{
+    Axes, BallAtSpeed, Balls, Given, Mirrored, Rollers, Row as _, balance, balance_from,
+};
 use gearloss_framework::{limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -206,11 +209,12 @@ impl Traction for Flow {
         }
     }
 
-    fn stress(&self, pressed: Pressed, speed: f64) -> f64 {
-        let shear = pressed.thinning * speed;
+    #[inline(always)]
+    fn stress<R: Real>(&self, pressed: Pressed, speed: R) -> R {
+        let shear = speed * pressed.thinning;
         // The inverse hyperbolic sine; its digits for small shear do not matter in a sum.
-        let film = (self.tau0 * (shear + (shear * shear + 1.0).sqrt()).ln()).min(pressed.limit);
-        film + (pressed.boundary - film) * self.boundary
+        let film = ((shear + (shear * shear + 1.0).sqrt()).ln() * self.tau0).at_most(pressed.limit);
+        film + (R::constant(pressed.boundary) - film) * self.boundary
     }
 }
 
@@ -343,35 +347,29 @@ impl Contacts {
     /// Powers of all balls, and the largest load.
     fn of_balls(&self, at: &BearingAt<'_>, balls: &Balls) -> Result<(Powers, f64), Undefined> {
         let speed = at.speed.abs();
-        let given = loads_on_ring(at, balls.geometry().contact_angle);
-        let moving = balls.at_speed(speed);
+        let given = loads_on_ring(at, balls.geometry().contact_angle).mirrored();
+        let (row, moving) = (Mirrored(balls), balls.at_speed(speed));
         let is_fast = at.part.mean_diameter().mm() * speed.rpm() > FAST;
-        let displacement = if is_fast {
-            balance(&moving, &given)
-        } else {
-            balance(balls, &given)
-        };
-        let displacement = displacement.map_err(|_| unbalanced(at))?.displacement;
+        let mut displacement = balance(&row, &given).map_err(|_| unbalanced(at))?.displacement;
+        if is_fast {
+            // Inertia turns the contacts, so that the equilibrium without it is near.
+            let found = balance_from(&Mirrored(&moving), &given, &displacement);
+            displacement = found.map_err(|_| unbalanced(at))?.displacement;
+        }
         let (mut powers, mut largest, mut ratio) = (Powers::default(), 0.0_f64, 0.0);
-        let number = balls.geometry().number;
         let mut add = |(place, ball): (usize, BallAtSpeed)| {
-            // All loads are in the plane of the first ball, so that balls on both sides of it are equal.
-            let is_single = place == 0 || 2 * place == number;
-            let count = if is_single { 1.0 } else { 2.0 };
             let (own, film_ratio) = self.ball(at, balls, &ball);
-            powers.add(&own, count);
+            powers.add(&own, row.count(place));
             if ball.contacts.load[0] > largest {
                 (largest, ratio) = (ball.contacts.load[0], film_ratio);
             }
         };
+        let half = row.directions().len();
         if is_fast {
-            moving
-                .loads(&displacement)
-                .take(number / 2 + 1)
-                .enumerate()
-                .for_each(&mut add);
+            let half = moving.loads(&displacement).take(half);
+            half.enumerate().for_each(&mut add);
         } else {
-            let half = balls.loads(&displacement).take(number / 2 + 1);
+            let half = balls.loads(&displacement).take(half);
             half.enumerate().for_each(|(place, contacts)| {
                 let motion = moving.motion(contacts.angle.map(|angle| [angle.sin(), angle.cos()]));
                 add((place, BallAtSpeed { contacts, motion }));
@@ -384,8 +382,9 @@ impl Contacts {
     /// Powers of all rollers, and the largest load.
     fn of_rollers(&self, at: &BearingAt<'_>, rollers: &Rollers) -> Result<(Powers, f64), Undefined> {
         let geometry = rollers.geometry();
-        let given = loads_on_ring(at, geometry.contact_angle);
-        let found = balance(rollers, &given).map_err(|_| unbalanced(at))?;
+        let given = loads_on_ring(at, geometry.contact_angle).mirrored();
+        let row = Mirrored(rollers);
+        let found = balance(&row, &given).map_err(|_| unbalanced(at))?;
         let (oil, speed) = (inlet_oil(at), at.speed.abs());
         let (diameter, cos) = (geometry.diameter, geometry.contact_angle.cos());
         let raceways = [-1.0, 1.0].map(|side| 0.5 * (geometry.pitch_diameter + side * diameter * cos));
@@ -399,18 +398,23 @@ impl Contacts {
         });
         let rib = self.rib_torque(geometry.contact_angle, diameter) * speed * raceways[1] / diameter;
         let (mut powers, mut largest) = (Powers::default(), 0.0_f64);
-        for load in rollers.loads(&found.displacement).map(|roller| roller.load) {
+        let half = rollers.loads(&found.displacement).take(row.directions().len());
+        for (place, load) in half.map(|roller| roller.load).enumerate() {
             if load <= 0.0 {
                 continue;
             }
+            let mut own = Powers {
+                rib: rib * load,
+                ..Powers::default()
+            };
             for (line, opposite) in lines.iter().zip([raceways[1], raceways[0]]) {
                 // The moment of a contact about the roller acts on the bearing with the arm of the other raceway.
                 let moment = line.moment(self.params.rolling, load, &oil, mean) * self.supply;
-                powers.rolling += moment * opposite / diameter * speed;
+                own.rolling += moment * opposite / diameter * speed;
                 let hysteresis = self.params.hysteresis * load * 2.0 * line.half_width(load) / (3.0 * PI);
-                powers.hysteresis += hysteresis * mean / line.radius;
+                own.hysteresis += hysteresis * mean / line.radius;
             }
-            powers.rib += rib * load;
+            powers.add(&own, row.count(place));
             largest = largest.max(load);
         }
         if geometry.contact_angle == 0.0 && at.radial > 0.0 {

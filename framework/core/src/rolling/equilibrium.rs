@@ -67,6 +67,16 @@ impl Axes<Given> {
         }
     }
 
+    /// The same with no displacement across the plane of y, where a load in it causes none; for a [`Mirrored`](super::Mirrored) row.
+    pub fn mirrored(self) -> Self {
+        let still = Given::Displacement(0.0);
+        Self {
+            radial: [self.radial[0], still],
+            tilt: [self.tilt[0], still],
+            ..self
+        }
+    }
+
     /// The same with a tilt in the plane of the radial load. \[rad\]
     pub fn with_tilt(self, tilt: f64) -> Self {
         Self {
@@ -235,6 +245,18 @@ impl Problem {
 /// If no displacement does, such as under an axial load on cylindrical rollers, or without enough axial load on a bearing that takes it in one
 /// direction.
 pub fn balance(row: &impl Row, given: &Axes<Given>) -> Result<Equilibrium, Unbalanced> {
+    search(row, given, None)
+}
+
+/// As [`balance`], from a displacement that is near, such as that of the same ring without inertia of its elements.
+///
+/// # Errors
+/// As [`balance`].
+pub fn balance_from(row: &impl Row, given: &Axes<Given>, start: &Axes<f64>) -> Result<Equilibrium, Unbalanced> {
+    search(row, given, Some(start))
+}
+
+fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Result<Equilibrium, Unbalanced> {
     let radius = row.radius();
     let lengths = [1.0, 1.0, 1.0, radius, radius];
     let mut problem = Problem {
@@ -260,6 +282,16 @@ pub fn balance(row: &impl Row, given: &Axes<Given>) -> Result<Equilibrium, Unbal
     if radial > 0.0 {
         u[1] += radial_guess * load[1] / radial;
         u[2] += radial_guess * load[2] / radial;
+    }
+    if let Some(start) = start {
+        for (i, near) in start
+            .array()
+            .into_iter()
+            .enumerate()
+            .filter(|(i, _)| !problem.is_held[*i])
+        {
+            u[i] = near * lengths[i];
+        }
     }
     let applied = load.amax();
     let mut reach = [axial_guess.abs(), radial_guess.abs(), 1e-9 * radius]

@@ -6,6 +6,7 @@
 
 use std::sync::LazyLock;
 
+use gearloss_framework::real::{LANES, Lane, Points as _, Real};
 use gearloss_framework::rolling::Ellipse;
 
 /// Nodes and weights of Gauss for six points between -1 and 1.
@@ -17,16 +18,20 @@ const GAUSS: [[f64; 2]; 6] = [
     [0.661_209_386_466_264_5, 0.360_761_573_048_138_6],
     [0.932_469_514_203_152, 0.171_324_492_379_170_36],
 ];
-/// Places along half an ellipse.
-const ANGLES: usize = 16;
-/// Sine and cosine of their angles, in the half ahead of the long axis.
-static PLACES: LazyLock<[(f64, f64); ANGLES]> = LazyLock::new(|| {
-    std::array::from_fn(|place| (std::f64::consts::PI * ((place as f64 + 0.5) / ANGLES as f64 - 0.5)).sin_cos())
+/// Sine and cosine of the angles of places along half an ellipse, ahead of the long axis: as many as one wide instruction serves together.
+static PLACES: LazyLock<[Lane; 2]> = LazyLock::new(|| {
+    let angle = |place: usize| std::f64::consts::PI * ((place as f64 + 0.5) / LANES as f64 - 0.5);
+    [
+        Lane::each(|place| angle(place).sin()),
+        Lane::each(|place| angle(place).cos()),
+    ]
 });
 /// Square of y0 over a of Coulomb's friction without spin: the root of t - t^3/3 = 1/3.
 const COULOMB: f64 = 0.347_296_355_333_860_7 * 0.347_296_355_333_860_7;
 /// Steps towards the lines of pure rolling. The power is stationary there, so that two suffice.
 const STEPS: usize = 2;
+/// Spin over roll rate below which it is rounding.
+const NO_SPIN: f64 = 1e-9;
 
 /// Stress of sliding surfaces at a pressure.
 pub trait Traction {
@@ -34,8 +39,8 @@ pub trait Traction {
     type Pressed: Copy;
     /// At a pressure. \[Pa\]
     fn under(&self, pressure: f64) -> Self::Pressed;
-    /// Stress at a sliding speed in m/s. \[Pa\]
-    fn stress(&self, pressed: Self::Pressed, speed: f64) -> f64;
+    /// Stress at a sliding speed in m/s; mark it as `#[inline(always)]`, so that it uses wide instructions. \[Pa\]
+    fn stress<R: Real>(&self, pressed: Self::Pressed, speed: R) -> R;
 }
 
 /// Sliding of one contact.
@@ -54,53 +59,74 @@ pub struct Slip {
 impl Slip {
     /// Power of sliding. \[W\]
     pub fn power(&self, traction: &impl Traction) -> f64 {
-        let (a, b) = (self.ellipse.across, self.ellipse.along);
-        let per_square = self.rolling / (2.0 * self.radius);
-        let sums = |line: f64| {
-            let (mut along, mut power) = (0.0, 0.0);
-            for [node, weight] in GAUSS {
-                let r = 0.5 + 0.5 * node;
-                let pressed = traction.under(self.ellipse.pressure * (1.0 - r * r).max(0.0).sqrt());
-                let (mut own_along, mut own_power) = (0.0, 0.0);
-                for (sin, cos) in *PLACES {
-                    let (x, y) = (b * r * cos, a * r * sin);
-                    let v_x = per_square * (y * y - line) - self.spin * y;
-                    let v = v_x.hypot(self.spin * x);
-                    let stress = traction.stress(pressed, v);
-                    if v > 0.0 {
-                        own_along += stress * v_x / v;
-                    }
-                    own_power += stress * v;
-                }
-                along += own_along * weight * r;
-                power += own_power * weight * r;
-            }
-            // Both halves of the ellipse, of the radii from zero to one.
-            let area = a * b * std::f64::consts::PI / ANGLES as f64;
-            (along * area, power * area)
-        };
-        let (mut low, mut high) = (0.0, a * a);
-        let mut line = COULOMB * a * a;
-        let mut found = sums(line);
-        if self.spin == 0.0 {
-            return found.1;
-        }
+        let places = *PLACES;
+        Lane::wide(
+            #[inline(always)]
+            || self.power_at(&places, traction),
+        )
+    }
+
+    #[inline(always)]
+    fn power_at(&self, places: &[Lane; 2], traction: &impl Traction) -> f64 {
+        let rings = GAUSS.map(|[node, weight]| {
+            let r = 0.5 + 0.5 * node;
+            let pressure = self.ellipse.pressure * (1.0 - r * r).max(0.0).sqrt();
+            (r, weight * r, traction.under(pressure))
+        });
+        let square = self.ellipse.across * self.ellipse.across;
+        let (mut low, mut high) = (0.0, square);
+        let mut line = COULOMB * square;
         let mut before: Option<(f64, f64)> = None;
-        for _ in 0..STEPS {
-            if found.0 > 0.0 {
+        // Outer contacts do not spin but for rounding, which must not decide the number of steps.
+        let is_rolling = self.spin.abs() <= NO_SPIN * self.rolling;
+        let steps = if is_rolling { 0 } else { STEPS };
+        let mut step = 0;
+        loop {
+            let [along, power] = self.sums(places, &rings, traction, line);
+            if step == steps {
+                return power;
+            }
+            step += 1;
+            if along > 0.0 {
                 low = line;
             } else {
                 high = line;
             }
-            let secant = before.map(|(line_before, along)| line - found.0 * (line - line_before) / (found.0 - along));
+            let secant = before.map(|(line_before, before)| line - along * (line - line_before) / (along - before));
             let next = secant
                 .filter(|next| next.is_finite() && *next > low && *next < high)
                 .unwrap_or(0.5 * (low + high));
-            before = Some((line, found.0));
+            before = Some((line, along));
             line = next;
-            found = sums(line);
         }
-        found.1
+    }
+
+    /// Traction along the direction of rolling and power of sliding, with the square of the lines of pure rolling. \[N, W\]
+    #[inline(always)]
+    fn sums<T: Traction>(
+        &self,
+        [sin, cos]: &[Lane; 2],
+        rings: &[(f64, f64, T::Pressed); GAUSS.len()],
+        traction: &T,
+        line: f64,
+    ) -> [f64; 2] {
+        let (a, b) = (self.ellipse.across, self.ellipse.along);
+        let per_square = self.rolling / (2.0 * self.radius);
+        let (mut along, mut power) = (Lane::ZERO, Lane::ZERO);
+        for (r, weight, pressed) in rings {
+            let y = *sin * (a * r);
+            let v_x = (y * y - Lane::constant(line)) * per_square - y * self.spin;
+            let v_y = *cos * (b * r * self.spin);
+            let v = (v_x * v_x + v_y * v_y).sqrt();
+            let stress = traction.stress(*pressed, v);
+            let share = Lane::select(v.is_above(Lane::ZERO), stress * v_x / v, Lane::ZERO);
+            along += share * *weight;
+            power += stress * v * *weight;
+            Lane::end_pass();
+        }
+        // Both halves of the ellipse, of the radii from zero to one.
+        let area = a * b * std::f64::consts::PI / LANES as f64;
+        [along, power].map(|sum| sum.iter().sum::<f64>() * area)
     }
 }
 
@@ -117,8 +143,9 @@ mod tests {
         fn under(&self, pressure: f64) -> f64 {
             self.0 * pressure
         }
-        fn stress(&self, pressed: f64, _: f64) -> f64 {
-            pressed
+        #[inline(always)]
+        fn stress<R: Real>(&self, pressed: f64, _: R) -> R {
+            R::constant(pressed)
         }
     }
 
