@@ -29,6 +29,7 @@ mod files;
 mod fit_rheology;
 mod fuzz;
 mod golden;
+mod grease;
 mod hold_out;
 mod identify;
 mod import_bearings;

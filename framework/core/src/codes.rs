@@ -84,8 +84,8 @@ gearloss_document::codes! {
         cause: "No bearing of a shaft takes thrust in a direction in which it may occur.",
         help: "Set `axial` of a bearing.";
     UNCOUNTED = "W0304", "losses are not included",
-        cause: "Planets have no bearings, so their bearing loads and losses are not included.",
-        help: "Add the bearings, or accept that these losses are missing from the sum.";
+        cause: "Planets have no bearings, so their bearing loads and losses are not included; or gears run in grease, whose churning has no law.",
+        help: "Add the bearings or a measured drag, or accept that these losses are missing from the sum.";
     OVERLOADED = "W0305", "static safety below 1 at the rating",
         cause: "A bearing has a static safety below 1 at the rated torque.",
         help: "Use a larger bearing, or check the rating.";

@@ -19,7 +19,7 @@ use serde_json::Value;
 pub use gearloss_document::Ordered;
 pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
 pub use housing::{HeatInto, HousingEntry, LevelOver, OilEntry, OutsideEntry, Running, Thermal, ThermalMode};
-pub use lubricant::LubricantEntry;
+pub use lubricant::{Consistency, GreaseEntry, LubricantEntry};
 pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
 pub use plausibility::PlausibilityEntry;
 pub use shafts::{LoadEntry, SectionEntry, ShaftEntry, Unsupported};
@@ -107,6 +107,22 @@ pub struct GearboxEntry {
 }
 
 impl GearboxEntry {
+    /// The lubricant of a part that states one, or none: that of the housing, or the only one. `None` if it does not exist.
+    pub fn lubricant<'a>(&'a self, stated: Option<&str>) -> Option<(&'a str, &'a LubricantEntry)> {
+        let name = stated.or(self.housing.oil.as_ref().map(|oil| oil.lubricant.as_str()));
+        let mut lubricants = self.lubricants.iter();
+        match name {
+            Some(name) => lubricants.find(|(id, _)| *id == name),
+            None => lubricants.next().filter(|_| self.lubricants.0.len() == 1),
+        }
+    }
+
+    /// True if that lubricant is a grease.
+    pub fn is_greased(&self, stated: Option<&str>) -> bool {
+        self.lubricant(stated)
+            .is_some_and(|(_, lubricant)| lubricant.grease.is_some())
+    }
+
     /// Reads an entry of a section again, in which only numbers differ from before; the whole document for a section without entries.
     ///
     /// # Errors

@@ -530,6 +530,10 @@ impl Transmission {
         let known = mesh.bodies.filter(|_| state.temperatures.len() > 1);
         let bodies = known.map(|nodes| nodes.map(|node| state.temperatures[node]));
         let flag = |holds: bool| R::constant(f64::from(u8::from(holds)));
+        let notes = book.notes(mesh.model.notes);
+        if mesh.greased {
+            notes.branch("grease: the oil is its base oil");
+        }
         GearMeshAt {
             part: &mesh.part,
             torque: (tangential * mesh.seat.pair.working_radius[0]).abs(),
@@ -546,7 +550,7 @@ impl Transmission {
             bodies_known: flag(bodies.is_some()),
             temperature_1: bodies.map_or(oil.temperature, |b| b[0]),
             temperature_2: bodies.map_or(oil.temperature, |b| b[1]),
-            notes: book.notes(mesh.model.notes),
+            notes,
         }
     }
 

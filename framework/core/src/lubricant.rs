@@ -11,7 +11,7 @@ pub(crate) mod walther;
 use crate::attach::Oil;
 use crate::description::LubricantEntry;
 use crate::description::lubricant::{
-    DensityEntry, DensityLaw, LubricantKind, PressureViscosityEntry, PressureViscosityLaw, RheologyEntry,
+    DensityEntry, DensityLaw, GreaseEntry, LubricantKind, PressureViscosityEntry, PressureViscosityLaw, RheologyEntry,
     ViscosityEntry, ViscosityLaw,
 };
 use density::Density;
@@ -43,7 +43,7 @@ struct Viscosity {
     factor: f64,
 }
 
-/// An oil with its fitted laws.
+/// An oil, or the base oil of a grease, with its fitted laws.
 #[derive(Debug, Clone)]
 pub struct Lubricant {
     viscosity: Viscosity,
@@ -56,6 +56,7 @@ pub struct Lubricant {
     mu_ehl: f64,
     x_l: f64,
     rheology: RheologyEntry,
+    grease: Option<GreaseEntry>,
 }
 
 /// Typical properties of a kind of oil.
@@ -326,6 +327,7 @@ impl Lubricant {
             mu_ehl: entry.mu_ehl.unwrap_or(usual.mu_ehl),
             x_l: entry.x_l.unwrap_or(usual.x_l),
             rheology: entry.rheology.unwrap_or_default(),
+            grease: entry.grease,
         })
     }
 
@@ -351,6 +353,11 @@ impl Lubricant {
             PressureViscosity::Constant(alpha) => Some(alpha),
             _ => None,
         }
+    }
+
+    /// What makes it a grease; its other properties are then those of its base oil.
+    pub fn grease(&self) -> Option<&GreaseEntry> {
+        self.grease.as_ref()
     }
 
     /// Roelands' law through the oil's viscosity at 40 and 100 degC, with an exponent over pressure; default: the stated one, else

@@ -5,6 +5,7 @@ mod case;
 mod drag_models;
 mod drags;
 mod gearing;
+mod grease;
 mod members;
 mod nodes;
 mod oils;
@@ -93,6 +94,8 @@ pub(crate) struct MeshModel {
     pub part: Arc<MeshPart>,
     pub model: Slot<GearMesh>,
     pub oil: u16,
+    /// True if the teeth run in grease.
+    pub greased: bool,
     /// Nodes of the bodies of both gears, if a thermal network has them.
     pub bodies: Option<[usize; 2]>,
     /// Factor on the loss of the model.

@@ -155,7 +155,7 @@ pub(crate) const ESTIMATED: &str = "internal geometry is estimated from the boun
 /// A bearing with the geometry of its elements.
 struct Contacts {
     params: Params,
-    /// Factor of a starved inlet on rolling friction.
+    /// Factor of a starved inlet and of the churning of grease on rolling friction.
     supply: f64,
     elements: Elements,
 }
@@ -173,8 +173,13 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Contacts, Diagnostic> {
     if part.kind != BearingKind::TaperedRoller {
         unused.push("rib");
     }
+    let churning = part.churning();
     cx.leave_unused(unused);
-    Ok(Contacts::new(params, elements))
+    let contacts = Contacts::new(params, elements);
+    Ok(Contacts {
+        supply: contacts.supply * churning,
+        ..contacts
+    })
 }
 
 /// Friction of an oil in a contact.

@@ -3,7 +3,7 @@
 //! Source: ISO/TR 14179-1:2001, quoted from memory: the load-dependent moment is that of ISO/TR 14179-2; f0 = f0_min + (f0_max - f0_min)
 //! H/H_max with f0_min if no rolling element is immersed and f0_max for a fully immersed bearing. The report's table of both was
 //! not available. By a convention of this program they are the values for oil mist and for an oil jet in the table of ISO/TR
-//! 14179-2, and H_max is the height of the outer raceway.
+//! 14179-2, and H_max is the height of the outer raceway; a greased bearing has f0_min.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::mechanism::bearing::{Bearing, BearingPart, Lubrication};

@@ -60,6 +60,8 @@ pub struct Palmgren {
     pub f2: f64,
     pub law: LoadLaw,
     c0: f64,
+    /// Factor of the churning of grease on the load-independent moment.
+    churning: f64,
     /// Mean diameter. \[mm\]
     d_m: f64,
     /// d_m^3.
@@ -93,6 +95,7 @@ impl Palmgren {
             f2,
             law,
             c0,
+            churning: part.churning(),
             d_m,
             cube: d_m.powi(3),
             d_m_b: d_m.powf(law.b),
@@ -175,8 +178,11 @@ impl Palmgren {
             product.power(c.viscous_exponent)
         };
         let viscous = f0 * c.viscous_factor * self.cube * power;
-        let m0 = R::select(constant, f0 * c.constant_factor * self.cube, viscous);
+        let m0 = R::select(constant, f0 * c.constant_factor * self.cube, viscous) * self.churning;
         at.show("f0", "-", f0);
+        if self.churning != 1.0 {
+            at.branch("grease churns: its factor is in M0");
+        }
         at.show("M0", "N mm", m0)
     }
 }

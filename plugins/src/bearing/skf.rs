@@ -193,6 +193,8 @@ struct Model {
     edition_mu_bl: f64,
     mu_ehl: Option<f64>,
     drag: Option<Drag>,
+    /// Factor of the churning of grease on the rolling moment.
+    churning: f64,
     /// Speed at which the drag is held. \[1/min\]
     fastest: f64,
     /// \[N mm\]
@@ -240,6 +242,7 @@ impl Model {
             edition_mu_bl: if params.edition == Edition::Y2018 { 0.12 } else { 0.15 },
             mu_ehl: params.mu_ehl.or(row.mu_ehl),
             drag: drag_of(params, part, &row)?,
+            churning: part.churning(),
             fastest: match params.beyond {
                 Beyond::Extrapolate => f64::INFINITY,
                 Beyond::Hold => FASTEST / d_m,
@@ -347,7 +350,7 @@ impl Model {
             phi_ish,
             phi_rs,
             phi_bl,
-            rolling: phi_ish * phi_rs * viscous,
+            rolling: phi_ish * phi_rs * viscous * self.churning,
             mu_sl: phi_bl * mu_bl + (one - phi_bl) * mu_ehl,
             drag,
         }
@@ -430,6 +433,9 @@ impl BearingLaw for Model {
         at.observe(&MU_SL, moments.mu_sl);
         at.show("phi_ish", "-", moments.phi_ish);
         at.show("phi_rs", "-", moments.phi_rs);
+        if self.churning != 1.0 {
+            at.branch("grease churns: its factor is in M_rr");
+        }
         let m_rr = at.show("M_rr", "N mm", moments.rolling * g_rr);
         let m_sl = at.show("M_sl", "N mm", moments.mu_sl * g_sl);
         let mut loss = Loss::MOMENTS.with(&SEAL, seals);

@@ -70,6 +70,11 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Timken, Diagnostic> {
             .error("timken applies to tapered roller bearings only")
             .help("give this bearing its own model, such as `model: { type: skf }`"));
     }
+    if part.churning() != 1.0 {
+        return Err(cx
+            .error("timken has no law of the churning of grease")
+            .help("omit `grease.churning`, or choose `skf` or `iso14179_2` for this bearing"));
+    }
     let k = params.k.or(part.y.map(|y| y / 1.028)).ok_or_else(|| {
         cx.error("timken requires `k`, or `y` of the bearing")
             .help("add `k:` to the model or `y:` to the bearing")

@@ -1,4 +1,4 @@
-//! Oils.
+//! Oils, and greases by their base oils.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -37,6 +37,55 @@ pub struct LubricantEntry {
     pub x_l: Option<f64>,
     /// Behaviour in a contact, for friction laws that need it.
     pub rheology: Option<RheologyEntry>,
+    /// Makes the lubricant a grease, also without keys: `grease: {}`. All other values are then those of its base oil, which every model takes: a
+    /// grease has no level, and no law of its churning by gears is known.
+    pub grease: Option<GreaseEntry>,
+}
+
+/// What makes a grease of its base oil.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
+pub struct GreaseEntry {
+    /// Consistency class according to NLGI (DIN 51818), in quotes. `check` compares it with those of rolling bearings, 1 to 3; no law depends on it.
+    pub consistency: Option<Consistency>,
+}
+
+/// Consistency class of a grease according to NLGI, from nearly fluid to very stiff.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+pub enum Consistency {
+    /// Nearly fluid.
+    #[serde(rename = "000")]
+    Fluid,
+    /// Semi-fluid.
+    #[serde(rename = "00")]
+    SemiFluid,
+    /// Very soft.
+    #[serde(rename = "0")]
+    VerySoft,
+    /// Soft.
+    #[serde(rename = "1")]
+    Soft,
+    /// The most common one.
+    #[serde(rename = "2")]
+    Medium,
+    /// Stiff.
+    #[serde(rename = "3")]
+    Stiff,
+    /// Very stiff.
+    #[serde(rename = "4")]
+    VeryStiff,
+    /// Hard.
+    #[serde(rename = "5")]
+    Hard,
+    /// Block grease.
+    #[serde(rename = "6")]
+    Block,
+}
+
+impl Consistency {
+    /// Whether such a grease stays in a rolling bearing and still gives off its oil: classes 1 to 3.
+    pub fn suits_rolling_bearings(self) -> bool {
+        (Self::Soft..=Self::Stiff).contains(&self)
+    }
 }
 
 /// Behaviour of an oil under the pressure and shear of a contact, from traction curves and a Stribeck curve.

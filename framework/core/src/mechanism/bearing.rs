@@ -2,6 +2,7 @@
 
 mod clearance_class;
 mod film;
+mod grease;
 mod internal;
 
 use schemars::JsonSchema;
@@ -17,6 +18,7 @@ use crate::resolve::basic_designation;
 use crate::{answered_by, context};
 
 pub use film::BearingFilm;
+pub use grease::BearingGrease;
 pub use internal::{ElementMaterial, ElementRow, Elements, InternalGeometry};
 
 /// Marker of the mechanism; never constructed.
@@ -124,7 +126,7 @@ pub enum Lubrication {
     Jet,
     /// Oil and air, oil spot or oil mist.
     OilAir,
-    /// Grease.
+    /// Grease; its base oil is the `lubricant` of the bearing.
     Grease,
 }
 
@@ -259,6 +261,8 @@ pub struct BearingEntry {
     /// Lubrication.
     #[serde(default)]
     pub lubrication: Lubrication,
+    /// Grease in the bearing, for `lubrication: grease`.
+    pub grease: Option<BearingGrease>,
     /// Oil film of a plain bearing or a thrust washer.
     pub film: Option<BearingFilm>,
 }
@@ -313,12 +317,19 @@ pub struct BearingPart {
     pub oil_height: Option<f64>,
     /// Lubrication.
     pub lubrication: Lubrication,
+    /// Grease in the bearing, as stated.
+    pub grease: Option<BearingGrease>,
     /// Oil film; of plain bearings, with a relative clearance and the film thickness at which the surfaces touch, and of thrust washers, with
     /// a gap.
     pub film: Option<BearingFilm>,
 }
 
 impl BearingPart {
+    /// Factor of the churning of grease on viscous friction; one without grease.
+    pub fn churning(&self) -> f64 {
+        self.grease.and_then(|grease| grease.churning).unwrap_or(1.0)
+    }
+
     /// Mean diameter d_m = (d + D)/2. \[m\]
     pub fn mean_diameter(&self) -> f64 {
         0.5 * (self.bore + self.outside)
@@ -521,6 +532,7 @@ impl TryFrom<BearingEntry> for BearingPart {
             ));
         }
         let film = film::checked(&entry, kind, bore)?;
+        grease::check(&entry, kind)?;
         let designated = entry.designation.as_deref().and_then(basic_designation);
         let designated =
             designated.filter(|basic| kind == BearingKind::AngularContactBall && basic.kind == kind.name());
@@ -553,6 +565,7 @@ impl TryFrom<BearingEntry> for BearingPart {
             raceway,
             oil_height: entry.oil_height,
             lubrication: entry.lubrication,
+            grease: entry.grease,
             film,
         };
         if part.internal.is_some() {
@@ -584,7 +597,7 @@ context! {
         /// Relative decrease of the oil's viscosity with temperature. [1/K]
         beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
         /// Oil height above the lowest point of the outer raceway; zero when dry. [mm]
-        oil_height: 5.0 in 0.0..=500.0 from "`oil_height`, else the oil level at its position",
+        oil_height: 5.0 in 0.0..=500.0 from "`oil_height`, else the oil level at its position; zero under grease",
         /// Coefficient of boundary friction stated for the oil; zero if none is stated. [-]
         mu_bl: 0.0 in 0.0..=0.3 from "`mu_bl` of the oil",
         /// Coefficient of full-film friction of ball bearings stated for the oil. [-]
@@ -625,6 +638,11 @@ impl Component for Bearing {
         notes: Notes<'a, R>,
     ) -> BearingAt<'a, R> {
         let oil = site.oil;
+        let greased = part.lubrication == Lubrication::Grease;
+        if greased {
+            notes.branch("grease: the oil is its base oil, without a level");
+        }
+        let pocket = if greased { Some(0.0) } else { part.oil_height };
         BearingAt {
             part,
             speed: site.speed,
@@ -636,9 +654,7 @@ impl Component for Bearing {
             nu: oil.nu,
             rho: oil.rho,
             beta: oil.beta,
-            oil_height: part
-                .oil_height
-                .map_or_else(|| site.level.over_bottom(part.raceway), R::constant),
+            oil_height: pocket.map_or_else(|| site.level.over_bottom(part.raceway), R::constant),
             mu_bl: oil.mu_bl,
             mu_ehl: oil.mu_ehl,
             alpha: oil.alpha,

@@ -3,6 +3,7 @@
 use super::drag_models::Drags;
 use super::drags::Covered;
 use super::gearing::gearing;
+use super::grease;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
 use super::oils::OilNumbers;
@@ -339,6 +340,8 @@ impl Models {
         let covered = place_sets(held, &mut models.components, &mut models.parts);
         classify(found, codes::MODEL);
         let levels = levels(entry, gears, oils);
+        found.extend(grease::faults(&resolved.value, entry));
+        warnings.extend(grease::doubts(&resolved.value, entry, &frame.members, gears, oils));
         warnings.extend(plausible::oil_level(entry, gears, &levels, oils));
         for (id, oil) in oils.named() {
             warnings.extend(plausible::viscosities(id, oil, &entry.plausibility));
@@ -676,6 +679,7 @@ fn mesh_models(
                     part,
                     model,
                     oil: oil.unwrap_or(0),
+                    greased: frame.entry.is_greased(written.lubricant.as_deref()),
                 });
             }
             Err(error) => found.push(error),
@@ -689,8 +693,12 @@ fn levels(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>) -> Ve
     let seats = gears.iter().enumerate();
     seats
         .map(|(i, g)| {
-            let stated = entry.gears.0[i].1.level;
-            stated.map_or_else(|| oils.level(Some(g.member as u16), g.at), Level::Own)
+            let gear = &entry.gears.0[i].1;
+            if entry.is_greased(gear.lubricant.as_deref()) {
+                return Level::Dry;
+            }
+            gear.level
+                .map_or_else(|| oils.level(Some(g.member as u16), g.at), Level::Own)
         })
         .collect()
 }

@@ -182,7 +182,7 @@ pub(crate) fn oil_level(
     let lowest = gears
         .iter()
         .zip(levels)
-        .filter(|(gear, _)| gear.diameters[1] > 0.0)
+        .filter(|(gear, level)| gear.diameters[1] > 0.0 && **level != Level::Dry)
         .map(|(gear, level)| {
             let height = match *level {
                 Level::Dry => f64::NEG_INFINITY,
