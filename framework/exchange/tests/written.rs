@@ -603,3 +603,105 @@ fn encoded_arrays_are_vectors() {
     let text = |xml: &str| import(xml.as_bytes(), "model.rexs", language()).unwrap().gearbox;
     assert_eq!(text(&coded), text(&plain));
 }
+
+/// A bearing of another component type on shaft 20, instead of the rolling bearing 23.
+fn with_bearing(kind: &str, data: &str) -> Model {
+    let mut model = one_stage("0,100,0");
+    model.components.retain(|(id, ..)| *id != 23);
+    model
+        .relations
+        .retain(|(_, refs)| !refs.contains(&("assembly".to_owned(), 23)));
+    model.component(25, kind, &format!("{} {data}", place("100,100,0")));
+    model.relation("side", &[("assembly", 25), ("inner_part", 20), ("outer_part", 2)]);
+    model
+}
+
+/// Plain bearings have a film: with their relative clearance, or a clearance whose unit their diameter tells.
+#[test]
+fn plain_bearings_have_a_film() {
+    let film = "film: { relative_clearance: 0.0015, least_thickness: 3 um }, model: { type: journal_film }";
+    let size = "inner_diameter=60 width=30";
+    for (kind, clearance) in [
+        (
+            "hydrodynamic_radial_plain_bearing",
+            "relative_clearance_plain_bearing=0.0015",
+        ),
+        (
+            "hydrodynamic_radial_plain_bearing",
+            "diameter_clearance_plain_bearing=0.09",
+        ),
+        ("slide_bearing", "diameter_clearance_plain_bearing=90"),
+    ] {
+        let imported = with_bearing(kind, &format!("{size} {clearance}")).imported();
+        has(
+            &imported.gearbox,
+            &[
+                &format!(
+                    "bearing_25: {{ shaft: shaft_20, at: 100 mm, kind: plain, bore: 60 mm, width: 30 mm, axial: none, {film} }}"
+                ),
+                "bearings.bearing_25.film.least_thickness",
+            ],
+        );
+        let (_, transmission) = gearbox(&imported.gearbox);
+        assert!(transmission.warnings.is_empty());
+    }
+}
+
+/// What a plain bearing lacks is said, and it has no loss.
+#[test]
+fn plain_bearings_without_clearance_have_no_loss() {
+    let data = "inner_diameter=60 diameter_clearance_plain_bearing=5 axial_force_absorption=positive";
+    let imported = with_bearing("slide_bearing", data).imported();
+    has(
+        &imported.gearbox,
+        &[
+            "film: { relative_clearance: 0.0015, least_thickness: 3 um }, model: none }",
+            "(slide_bearing 25): width, film.relative_clearance; without them its loss is left out",
+            "plain bearings carry no thrust",
+        ],
+    );
+    gearbox(&imported.gearbox);
+}
+
+/// A bearing whose lubricant is a grease is greased, has no oil level, and names the grease.
+#[test]
+fn greases_are_described_by_their_base_oils() {
+    let data = "bearing_type=radial_grooved_ball_bearing catalogue_designation=6206 axial_force_absorption=no_direction \
+                depth_of_immersion_in_oil=5";
+    let mut model = with_bearing("rolling_bearing_with_catalog_geometry", data);
+    let viscosities = "viscosity_at_40_degree_celsius=100 viscosity_at_100_degree_celsius=11";
+    model
+        .component(40, "lubricant", viscosities)
+        .component(41, "lubricant", &format!("kind=grease basis=mineral {viscosities}"))
+        .relation("reference", &[("origin", 2), ("referenced", 40)])
+        .relation("reference", &[("origin", 25), ("referenced", 41)]);
+    let imported = model.imported();
+    has(
+        &imported.gearbox,
+        &[
+            "lubricant_41: { kind: mineral, viscosity: { kv40: 100 mm2/s, kv100: 11 mm2/s }, grease: {} }",
+            "axial: none, lubrication: grease, lubricant: lubricant_41 }",
+            "its depth in the oil was ignored",
+            "count as those of its base oil",
+        ],
+    );
+    let (_, transmission) = gearbox(&imported.gearbox);
+    assert!(transmission.warnings.is_empty());
+}
+
+/// Types of rolling bearings without a kind carry load, and the report names them.
+#[test]
+fn bearing_types_without_a_kind_are_reported() {
+    for kind in ["axial_tapered_roller_bearing", "crossed_roller_bearing"] {
+        let data =
+            format!("bearing_type={kind} inner_diameter=50 outer_diameter=80 axial_force_absorption=no_direction");
+        let imported = with_bearing("rolling_bearing_with_detailed_geometry", &data).imported();
+        has(
+            &imported.gearbox,
+            &[
+                &format!("gearbox files have no kind for the bearing type `{kind}`"),
+                "model: none }",
+            ],
+        );
+    }
+}

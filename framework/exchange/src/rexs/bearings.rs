@@ -6,9 +6,10 @@ use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{CatalogueTable, read_designation};
 use serde_json::Value;
 
-use super::draft::Bearing;
+use super::draft::{Bearing, Film};
 use super::map::{Map, id, named, one_line};
 use super::model::{Component, Id};
+use super::oil::is_grease;
 use super::units::Quantity;
 
 /// Bearing types of REXS and kinds of gearbox files; `None` where there is none.
@@ -32,6 +33,16 @@ const KINDS: &[(&str, Option<&str>)] = &[
     ("crossed_roller_bearing", None),
 ];
 
+/// Components that are plain bearings.
+const PLAIN: [&str; 2] = ["slide_bearing", "hydrodynamic_radial_plain_bearing"];
+
+/// Relative clearances of plain bearings, which tell the unit of a clearance that has none.
+const CLEARANCES: std::ops::Range<f64> = 2e-4..1e-2;
+/// Relative clearance where none is stated, in the middle of the usual ones.
+const PLACEHOLDER_CLEARANCE: f64 = 0.0015;
+/// Film at which surfaces touch, which REXS does not have, and its greatest share of the clearance of the radius. \[um\]
+const LEAST_THICKNESS: (f64, f64) = (3.0, 0.2);
+
 /// Ratio of outside to bore diameter where nothing is known; bearings have 1.2 to 2.6.
 const PLACEHOLDER_RATIO: f64 = 1.6;
 /// Bore where not even the shaft states its diameter. \[mm\]
@@ -49,7 +60,8 @@ pub fn bearings(map: &Map<'_>, language: &Language) -> (Vec<Bearing>, Vec<(Vec<S
         .collect();
     for component in source.model.components.values() {
         let is_bearing = component.kind.contains("bearing") && placed.contains(&component.id);
-        let holds = component.kind == "concept_bearing" || component.kind.starts_with("rolling_bearing_with");
+        let kind = component.kind.as_str();
+        let holds = kind == "concept_bearing" || kind.starts_with("rolling_bearing_with") || PLAIN.contains(&kind);
         if !is_bearing && holds {
             source.note(format!("{} has no relation `side` and was ignored", component.label()));
         }
@@ -140,10 +152,145 @@ fn bearing(
             component.label()
         ));
     }
+    if PLAIN.contains(&component.kind.as_str()) {
+        plain(map, inner, component, &mut bearing, assumed);
+        return Some(bearing);
+    }
+    grease(map, component, &mut bearing);
     data(map, component, &mut bearing);
     catalogue(map, language, component, &mut bearing);
     placeholders(map, [inner, outer], component, &mut bearing, assumed);
     Some(bearing)
+}
+
+/// A bearing whose lubricant is a grease is greased, and a greased one has no oil level.
+fn grease(map: &Map<'_>, component: &Component, bearing: &mut Bearing) {
+    let source = map.source;
+    let of_housing = || {
+        let mut oils = source.components("lubricant");
+        oils.find(|oil| Some(id("lubricant", oil.id)) == map.sump)
+    };
+    let oil = map.referenced(component.id, "lubricant").or_else(of_housing);
+    if oil.is_some_and(|oil| is_grease(map, oil)) {
+        bearing.lubrication = Some("grease");
+    }
+    if bearing.lubrication == Some("grease") && bearing.oil_height.take().is_some_and(|height| height > 0.0) {
+        source.note(format!(
+            "{}: it is greased; its depth in the oil was ignored",
+            component.label()
+        ));
+    }
+}
+
+/// A plain bearing: its journal, and the clearance of its film.
+fn plain(
+    map: &Map<'_>,
+    inner: Option<Id>,
+    component: &Component,
+    bearing: &mut Bearing,
+    assumed: &mut Vec<(Vec<String>, String)>,
+) {
+    let source = map.source;
+    let length = |id: &str| source.positive(component, id, Quantity::Length);
+    bearing.kind = Some("plain");
+    if bearing.axial != "none" {
+        source.note(format!(
+            "{}: plain bearings carry no thrust in gearbox files; its thrust was left out",
+            component.label()
+        ));
+        bearing.axial = "none";
+    }
+    if bearing.lubrication == Some("grease") {
+        source.note(format!(
+            "{}: gearbox files know no greased plain bearing; it counts as one in oil",
+            component.label()
+        ));
+        bearing.lubrication = None;
+    }
+    let (bore, width) = (length("inner_diameter"), length("width"));
+    let clearance = bore.and_then(|bore| relative_clearance(map, component, bore));
+    let lacks: Vec<&str> = [
+        ("bore", bore.is_none()),
+        ("width", width.is_none()),
+        ("film.relative_clearance", clearance.is_none()),
+    ]
+    .into_iter()
+    .filter_map(|(key, lacks)| lacks.then_some(key))
+    .collect();
+    let bore = bore
+        .or_else(|| diameter_near(map, inner, bearing.at, false))
+        .unwrap_or(PLACEHOLDER_BORE);
+    let relative_clearance = clearance.unwrap_or(PLACEHOLDER_CLEARANCE);
+    let (touching, share) = LEAST_THICKNESS;
+    bearing.bore = Some(bore);
+    bearing.width = Some(width.unwrap_or(0.8 * bore));
+    bearing.film = Some(Film {
+        relative_clearance,
+        least_thickness: touching.min(share * 0.5e3 * relative_clearance * bore),
+    });
+    bearing.model = Some(if lacks.is_empty() { "journal_film" } else { "none" });
+    let path = format!("bearings.{}", bearing.id);
+    assumed.push((
+        vec![format!("{path}.film.least_thickness")],
+        "placeholder: REXS does not have it; 3 um, less in a small clearance".to_owned(),
+    ));
+    if lacks.is_empty() {
+        return;
+    }
+    assumed.push((
+        lacks.iter().map(|key| format!("{path}.{key}")).collect(),
+        "placeholder: the REXS file does not state it; the bearing carries load and has no loss".to_owned(),
+    ));
+    source.missing(format!(
+        "{} ({}): {}; without them its loss is left out (`model: none`)",
+        bearing.id,
+        bearing.comment,
+        lacks.join(", ")
+    ));
+}
+
+/// Clearance over diameter of a plain bearing. The specification gives the clearance no unit: if a file states none either, the one counts that
+/// makes it a clearance of plain bearings.
+fn relative_clearance(map: &Map<'_>, component: &Component, bore: f64) -> Option<f64> {
+    let source = map.source;
+    let stated = source.positive(component, "relative_clearance_plain_bearing", Quantity::Number);
+    let possible = |clearance: &f64| CLEARANCES.contains(clearance);
+    let id = "diameter_clearance_plain_bearing";
+    let of_diameter = || {
+        let length = source.positive(component, id, Quantity::Length)?;
+        let unit = component.attribute(id).map(|attribute| attribute.unit.trim());
+        if !unit.is_none_or(|unit| unit.is_empty() || unit == "none") {
+            return Some(length / bore);
+        }
+        let found = [("mm", 1.0), ("um", 1e-3)]
+            .map(|(unit, millimetres)| (unit, length * millimetres / bore))
+            .into_iter()
+            .find(|(_, relative)| possible(relative));
+        let (unit, relative) = found?;
+        source.assume(format!(
+            "{}: its clearance has no unit; {unit} fits its diameter",
+            component.label()
+        ));
+        Some(relative)
+    };
+    let found = stated.or_else(of_diameter);
+    if let Some(clearance) = found.filter(|clearance| !possible(clearance)) {
+        source.note(format!(
+            "{}: a relative clearance of {clearance} is none of a plain bearing and was ignored",
+            component.label()
+        ));
+    }
+    found.filter(possible)
+}
+
+/// Diameter of a part at a place: of its bore, or outside.
+fn diameter_near(map: &Map<'_>, part: Option<Id>, at: f64, inner: bool) -> Option<f64> {
+    let part = map.source.component(part?)?;
+    let sections = super::shafts::sections(map, part);
+    let here = sections
+        .iter()
+        .find(|section| section.from - 1e-6 <= at && at <= section.to + 1e-6)?;
+    Some(if inner { here.inner } else { here.outer }).filter(|diameter| *diameter > 0.5)
 }
 
 /// True if a bearing between two shafts supports the outer one: `shaft` of a bearing is the one that it supports. Planets and loose gears are
@@ -370,19 +517,10 @@ fn placeholders(
         return;
     }
     bearing.kind.get_or_insert("deep_groove_ball");
-    let near = |part: Option<Id>, inner: bool| {
-        let part = map.source.component(part?)?;
-        let at = bearing.at;
-        let sections = super::shafts::sections(map, part);
-        let here = sections
-            .iter()
-            .find(|section| section.from - 1e-6 <= at && at <= section.to + 1e-6)?;
-        Some(if inner { here.inner } else { here.outer }).filter(|diameter| *diameter > 0.5)
-    };
-    let on_shaft = near(parts[0], false);
+    let on_shaft = diameter_near(map, parts[0], bearing.at, false);
     let bore = bearing.bore.or(on_shaft).unwrap_or(PLACEHOLDER_BORE);
     let bore = bearing.outside.map_or(bore, |outside| bore.min(outside / 1.2));
-    let around = near(parts[1], true).filter(|outside| *outside > 1.05 * bore);
+    let around = diameter_near(map, parts[1], bearing.at, true).filter(|outside| *outside > 1.05 * bore);
     let outside = bearing.outside.or(around).unwrap_or(PLACEHOLDER_RATIO * bore);
     (bearing.bore, bearing.outside) = (Some(bore), Some(outside));
     bearing.model = Some("none");

@@ -142,10 +142,19 @@ pub struct Bearing {
     pub lubrication: Option<&'static str>,
     pub oil_height: Option<f64>,
     pub lubricant: Option<String>,
+    /// Oil film of a plain bearing.
+    pub film: Option<Film>,
     /// Its own model; none is that of `models`.
     pub model: Option<&'static str>,
     /// A designation of the catalogue in the name of a bearing that states none.
     pub known: Option<String>,
+}
+
+#[derive(Debug)]
+pub struct Film {
+    pub relative_clearance: f64,
+    /// \[um\]
+    pub least_thickness: f64,
 }
 
 #[derive(Debug, Default)]
@@ -162,4 +171,6 @@ pub struct Lubricant {
     pub density: Option<f64>,
     pub heat_capacity: Option<f64>,
     pub conductivity: Option<f64>,
+    /// The values are those of the base oil of a grease.
+    pub is_grease: bool,
 }

@@ -82,6 +82,13 @@ fn oil(map: &Map<'_>, component: &Component) -> Option<Lubricant> {
         points(map, component, &mut oil);
     }
     oil.kind = kind(map, component, oil.density);
+    oil.is_grease = is_grease(map, component);
+    if oil.is_grease {
+        source.assume(format!(
+            "{}: it is a grease; its viscosities count as those of its base oil",
+            component.label()
+        ));
+    }
     if oil.kv40.is_none_or(|_| oil.kv100.is_none()) && oil.points.is_empty() {
         source.error(
             component,
@@ -92,6 +99,11 @@ fn oil(map: &Map<'_>, component: &Component) -> Option<Lubricant> {
         return None;
     }
     Some(oil)
+}
+
+/// True if a lubricant is a grease.
+pub fn is_grease(map: &Map<'_>, lubricant: &Component) -> bool {
+    map.source.word(lubricant, "kind").as_deref() == Some("grease")
 }
 
 /// Two or three viscosities of a table over temperature.
@@ -137,15 +149,6 @@ fn kind(map: &Map<'_>, component: &Component, density: Option<f64>) -> Option<&'
         .into_iter()
         .find_map(|id| source.word(component, id));
     let (kind, basis) = (source.word(component, "kind"), source.word(component, "basis"));
-    if kind.as_deref() == Some("grease") {
-        source.error(
-            component,
-            codes::REXS_PART,
-            "it is a grease",
-            "gearbox files describe oils; state the base oil of the grease as the lubricant of the bearings",
-        );
-        return None;
-    }
     match of_standard.as_deref() {
         Some("mineral_oil") => return Some("mineral"),
         Some("polyalfaolefin" | "polyalphaolefin") => return Some("polyalphaolefin"),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::draft::{Bearing, Draft, Gear, Lubricant, Mesh, Shaft};
+use super::draft::{Bearing, Draft, Film, Gear, Lubricant, Mesh, Shaft};
 
 /// A number as short as it can be written, with at most twelve digits: coordinates are sums, and their last digits are rounding.
 pub fn number(value: f64) -> String {
@@ -306,6 +306,7 @@ fn bearings(text: &mut String, bearings: &[Bearing]) {
             .word_if("lubrication", bearing.lubrication)
             .quantity_if("oil_height", bearing.oil_height, "mm")
             .word_if("lubricant", bearing.lubricant.as_ref())
+            .word_if("film", bearing.film.as_ref().map(film))
             .word_if("model", bearing.model.map(model));
         line(text, &bearing.id, entry, &bearing.comment);
         if let Some(known) = &bearing.known {
@@ -316,6 +317,13 @@ fn bearings(text: &mut String, bearings: &[Bearing]) {
             );
         }
     }
+}
+
+fn film(film: &Film) -> String {
+    Entry::default()
+        .quantity("relative_clearance", film.relative_clearance, "")
+        .quantity("least_thickness", film.least_thickness, "um")
+        .text()
 }
 
 fn model(name: &str) -> String {
@@ -357,6 +365,7 @@ fn lubricant(oil: &Lubricant) -> Entry {
         .word_if("density", density)
         .quantity_if("heat_capacity", oil.heat_capacity, "J/(kg K)")
         .quantity_if("conductivity", oil.conductivity, "W/(m K)")
+        .word_if("grease", oil.is_grease.then_some("{}"))
 }
 
 fn housing(text: &mut String, draft: &Draft) {
