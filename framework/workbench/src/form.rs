@@ -1,5 +1,6 @@
 //! New documents: forms of gearboxes, and studies. A form writes the template of a layout with the values that were typed: after that the text is what counts.
 
+mod bearings;
 mod fields;
 mod followed;
 mod layouts;

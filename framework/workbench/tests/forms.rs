@@ -52,6 +52,7 @@ fn every_field_is_written() {
                 FieldKind::Text if field.path == "title" => "Getriebe: \"neu\", #2".to_owned(),
                 FieldKind::Text | FieldKind::Number => "0.123".to_owned(),
                 FieldKind::Integer => "33".to_owned(),
+                _ if field.example.is_some_and(|example| !example.is_empty()) => field.example.unwrap().to_owned(),
                 FieldKind::Quantity => {
                     let (_, unit) = field.value.split_once(' ').unwrap();
                     format!("12.5 {unit}")
@@ -72,6 +73,44 @@ fn every_field_is_written() {
             }
         }
     }
+}
+
+/// Details of bearings become keys: a hybrid bearing with known balls, a greased one, a plain one with its model.
+#[test]
+fn details_of_bearings_are_written() {
+    let typed = [
+        ("bearings.B1.internal.elements", "9"),
+        ("bearings.B1.internal.diameter", "9.525 mm"),
+        ("bearings.B1.internal.material", "silicon_nitride"),
+        ("bearings.B1.internal.length", ""),
+        ("bearings.B2.lubrication", "grease"),
+        ("bearings.B2.grease.churning", "2.5"),
+        ("bearings.B4.kind", "plain"),
+        ("bearings.B4.bore", "40 mm"),
+        ("bearings.B4.width", "30 mm"),
+        ("bearings.B4.film.relative_clearance", "0.0015"),
+        ("bearings.B4.film.least_thickness", "3 um"),
+    ];
+    let text = written(Layout::named("two-stage").unwrap(), &values(&typed))
+        .unwrap()
+        .text;
+    let gearbox = Gearbox::of_text(language(), &text, "gearbox.yaml", "").unwrap();
+    let bearings = &gearbox.value["bearings"];
+    let internal = &bearings["B1"]["internal"];
+    assert_eq!(
+        (&internal["elements"], &internal["material"]),
+        (&json!(9), &json!("silicon_nitride"))
+    );
+    assert!(internal.get("length").is_none());
+    assert_eq!(bearings["B2"]["lubricant"], "grease");
+    assert_eq!(bearings["B2"]["grease"]["churning"], 2.5);
+    assert_eq!(gearbox.value["lubricants"]["grease"]["grease"]["consistency"], "2");
+    assert_eq!(
+        (&bearings["B4"]["kind"], &bearings["B4"]["model"]["type"]),
+        (&json!("plain"), &json!("journal_film"))
+    );
+    assert!(bearings["B4"].get("designation").is_none());
+    assert!(gearbox.transmission(language(), &Choice::default()).is_ok(), "{text}");
 }
 
 /// What was typed is not assumed; the other fields of the same component are.

@@ -129,14 +129,16 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
     fields.replaceChildren();
     inputs.clear();
     for (const group of layout.groups) {
-      const set = html(fields, "fieldset");
-      html(set, "legend", {}, group.title);
+      const outer = html(fields, "fieldset");
+      const set = group.folded ? html(outer, "details") : outer;
+      if (set instanceof HTMLDetailsElement) set.open = group.fields.some((f) => typed.has(f.path));
+      html(set, group.folded ? "summary" : "legend", {}, group.title);
       for (const field of group.fields) {
         const id = unique("field");
         const line = html(set, "div", { class: "field", "data-path": field.path });
         html(line, "label", { for: id }, words(field.label));
-        const input = field.choices ? html(line, "select", { id, "aria-describedby": `${id}-help ${id}-error` }) : html(line, "input", { id, type: "text", value: typed.get(field.path) ?? field.value, spellcheck: "false", "aria-describedby": `${id}-help ${id}-error`, inputmode: field.kind === "integer" ? "numeric" : undefined });
-        for (const value of field.choices ?? []) html(input, "option", { value }, value);
+        const input = field.choices ? html(line, "select", { id, "aria-describedby": `${id}-help ${id}-error` }) : html(line, "input", { id, type: "text", value: typed.get(field.path) ?? field.value, spellcheck: "false", placeholder: field.example, "aria-describedby": `${id}-help ${id}-error`, inputmode: field.kind === "integer" ? "numeric" : undefined });
+        for (const value of field.choices ?? []) html(input, "option", { value }, value || "not stated");
         if (field.choices) input.value = typed.get(field.path) ?? field.value;
         html(line, "span", { class: "field-help", id: `${id}-help` }, words(field.help));
         const error = html(line, "span", { class: "field-error", id: `${id}-error`, "aria-live": "polite" });

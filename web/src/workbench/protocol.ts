@@ -185,17 +185,19 @@ export interface Field {
   path: string;
   label: string;
   kind: "text" | "integer" | "number" | "quantity" | "bearing" | "oil" | "choice";
-  /** What is in the template, such as `25 mm`. */
+  /** What is in the template, such as `25 mm`; empty if nothing has to be typed. */
   value: string;
   help: string;
   /** Of a choice. */
   choices?: string[];
+  /** A value of a field that may stay empty. */
+  example?: string;
 }
 
 export interface Layout {
   name: string;
   about: string;
-  groups: { title: string; fields: Field[] }[];
+  groups: { title: string; fields: Field[]; folded?: boolean }[];
 }
 
 export interface CatalogueRow {

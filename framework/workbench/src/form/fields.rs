@@ -3,6 +3,7 @@
 use gearloss_editor::outline::{self, Content, Node};
 use serde::Serialize;
 
+use super::bearings;
 use super::distance;
 use super::layouts::Layout;
 
@@ -13,6 +14,9 @@ pub struct Group {
     pub title: String,
     /// Fields.
     pub fields: Vec<Field>,
+    /// Shown on demand.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub folded: bool,
 }
 
 /// A value to be typed.
@@ -24,13 +28,16 @@ pub struct Field {
     pub label: String,
     /// How it is typed.
     pub kind: FieldKind,
-    /// Value of the template.
+    /// Value of the template; empty if it has none and needs none.
     pub value: String,
     /// What it means.
     pub help: String,
     /// The values of a choice.
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     pub choices: &'static [&'static str],
+    /// A value of a field that may stay empty.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub example: Option<&'static str>,
 }
 
 /// How the oil temperature is found.
@@ -78,7 +85,10 @@ pub(super) fn groups(layout: &Layout) -> Vec<Group> {
     )];
     groups.extend(form.meshes());
     groups.push(group("Planets", form.planets()));
-    groups.push(form.bearings());
+    let bearings = form.bearings();
+    let details = bearings.fields.iter().filter_map(bearings::details).collect::<Vec<_>>();
+    groups.push(bearings);
+    groups.extend(details);
     groups.push(group(
         "Oil",
         vec![
@@ -116,6 +126,7 @@ fn group(title: &str, fields: Vec<Option<Field>>) -> Group {
     Group {
         title: title.to_owned(),
         fields: fields.into_iter().flatten().collect(),
+        folded: false,
     }
 }
 
@@ -139,6 +150,7 @@ impl Reader<'_> {
             } else {
                 &[]
             },
+            example: None,
         })
     }
 
@@ -204,6 +216,7 @@ impl Reader<'_> {
                 value: format!("{} mm", known.value),
                 help: "follows from the teeth unless it is typed; determines the places of the axes".to_owned(),
                 choices: &[],
+                example: None,
             }));
             groups.push(group(&format!("Mesh {mesh}: {}", gears.join(" and ")), fields));
         }

@@ -7,6 +7,7 @@ use gearloss_editor::outline::{self, Content, Node};
 use gearloss_framework::document::{Diagnostic, Unit, parse_quantity};
 use serde::Serialize;
 
+use super::bearings::{self, Typed};
 use super::distance;
 use super::fields::{Field, FieldKind, MODE, at, groups};
 use super::followed::followed;
@@ -33,12 +34,16 @@ pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Wri
     all.extend(values.clone());
     let fields: Vec<_> = groups(layout).into_iter().flat_map(|group| group.fields).collect();
     let mut changes: Vec<(Range<usize>, String)> = Vec::new();
+    let mut details = Typed::new();
     for (path, typed) in &all {
         let typed = typed.trim();
         let wrong = |message: &str, help: &str| Err(Fault::from(Diagnostic::error(path.as_str(), message).help(help)));
         let Some(field) = fields.iter().find(|field| field.path == *path) else {
             return wrong("the form has no such field", "choose a field of the form");
         };
+        if typed.is_empty() && field.example.is_some() {
+            continue;
+        }
         if typed.is_empty() {
             return wrong(
                 "the value is missing",
@@ -52,11 +57,14 @@ pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Wri
             continue;
         }
         for path in twins(layout, path) {
-            if let Some(node) = at(&document, &path) {
+            if field.example.is_some() {
+                bearings::note(&mut details, &path, scalar(typed, field.kind));
+            } else if let Some(node) = at(&document, &path) {
                 changes.push((node.span.clone(), scalar(typed, field.kind)));
             }
         }
     }
+    changes.extend(bearings::changes(layout.text, &document, &details));
     axes(layout, &document, &all, &mut changes)?;
     if all.get(MODE).is_some_and(|mode| mode == "balance") {
         changes.extend(heat_dissipation(layout.text));
