@@ -10,6 +10,7 @@ use gearloss_framework::resolve::Choice;
 use gearloss_framework::thermal::Equilibrium;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::study::Study;
+use serde_json::json;
 
 /// How many points were solved side by side, and how many had to be evaluated alone.
 #[derive(Debug, Default, Clone, Copy, PartialEq)]
@@ -181,7 +182,8 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
     assert!(count.together > 3 * count.alone, "{count:?}");
 }
 
-/// Three pairs of tapered roller bearings, then one of them on a spring that is too weak at some of the points.
+/// Three pairs of tapered roller bearings, then one of them on a spring that is too weak at some of the points, then one with a preload that
+/// is lost at the higher temperature.
 #[test]
 fn pairs_of_bearings_have_the_same_bits_side_by_side_and_alone() {
     let language = language();
@@ -189,10 +191,16 @@ fn pairs_of_bearings_have_the_same_bits_side_by_side_and_alone() {
     let gearbox = Gearbox::read(&language, &layout).unwrap();
     let torques: Vec<f64> = (-20..=20).map(|i| 0.9 * f64::from(i)).chain([1e-6, 150.0]).collect();
     let spring = Choice::default().with("bearings.B3.spring_preload", 300.0);
-    for (choice, sprung) in [(Choice::default(), 0), (spring, 1)] {
+    let preload = json!({ "force": 500.0, "housing": { "material": "aluminium" } });
+    let preload = Choice::default().with("bearings.B3.preload", preload);
+    for (choice, sprung, preloaded) in [(Choice::default(), 0, 0), (spring, 1, 0), (preload, 0, 1)] {
         let t = gearbox.transmission(&language, &choice).unwrap();
         assert_eq!(t.pairs().len(), 3);
         assert_eq!(t.pairs().iter().filter(|pair| pair.spring.is_some()).count(), sprung);
+        assert_eq!(
+            t.pairs().iter().filter(|pair| pair.preload.is_some()).count(),
+            preloaded
+        );
         let mut count = Count::default();
         compare(&t, &[30.0 * RPM, 1500.0 * RPM], &torques, &[70.0, 20.0], &mut count);
         assert!(count.together > count.alone, "{count:?}");

@@ -11,7 +11,7 @@ use gearloss_framework::resolve::{Choice, Resolved};
 use gearloss_framework::thermal::Step;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::points::{Derivative, Derivatives, Derived, Method, OilTemperature, PreparedPoint, Variable};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::common::{RPM, file, language};
 
@@ -222,6 +222,21 @@ fn a_model_that_iterates_along_the_path_is_differentiated_by_differences() {
     let rig = Rig::new("electric-drive-unit", simple, "", 100.0, 6000.0, Some(40.0));
     for variable in ["torque:input", "speed:input", "oil_temperature"] {
         rig.compare(variable, 1e-8);
+    }
+}
+
+/// A preload that the balanced temperature changes: its root is continued by one step of Newton.
+#[test]
+fn a_preload_has_the_derivatives_of_its_root() {
+    let preload = json!({ "closing": 20e-6, "housing": { "material": "cast_iron" } });
+    let choice = Choice::default().with("bearings.B1.preload", preload);
+    let rig = Rig::new("industrial-reducer", choice.clone(), "", 290.0, 1480.0, None);
+    for variable in ["torque:input", "speed:input"] {
+        rig.compare(variable, 1e-7);
+    }
+    let rig = Rig::new("industrial-reducer", choice, "", 290.0, 1480.0, Some(70.0));
+    for variable in ["torque:input", "oil_temperature"] {
+        rig.compare(variable, 1e-7);
     }
 }
 

@@ -49,7 +49,10 @@ fn pairs_of_bearings_allocate_nothing() {
     let language = language();
     let layout = file("framework/workbench/src/form/layouts/three-stage.yaml");
     let gearbox = Gearbox::read(&language, &layout).unwrap();
-    let choice = Choice::default().with("bearings.B3.spring_preload", 300.0);
+    let preload = json!({ "closing": 5e-6, "housing": { "material": "cast_iron" } });
+    let choice = Choice::default()
+        .with("bearings.B3.spring_preload", 300.0)
+        .with("bearings.B5.preload", preload);
     let t = gearbox.transmission(&language, &choice).unwrap();
     let case = t.case("only", &[], &["input"]).unwrap();
     let mut scratch = t.scratch(&case);

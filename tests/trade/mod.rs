@@ -8,6 +8,7 @@ mod imports;
 mod losses;
 mod mistakes;
 mod pairs;
+mod preloads;
 mod units;
 
 use std::path::{Path, PathBuf};

@@ -6,6 +6,7 @@
 mod clearance;
 mod common;
 mod member;
+mod preload;
 mod support;
 
 use std::cell::Cell;
@@ -16,6 +17,7 @@ use serde::de::DeserializeOwned;
 pub use clearance::{Clearance, ClearancePlace, ClearanceSite};
 pub use common::Common;
 pub use member::{MemberPlace, MemberSite, OnMember};
+pub use preload::{BodyMaterial, PreloadBody, PreloadEntry};
 pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
 
 use crate::codes;

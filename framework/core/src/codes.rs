@@ -100,4 +100,7 @@ gearloss_document::codes! {
         cause: "The radial load of an angular contact or tapered roller bearing pushes the shaft towards an opposed bearing, but there is none, or its data do \
                 not state how large this thrust is.",
         help: "State `axial: left` and `right` of the two bearings, and `y`, `contact_angle` or `induced_thrust`; `induced_thrust: 0` leaves the thrust out.";
+    PRELOAD = "W0309", "preload may not be as meant",
+        cause: "The expansion of the housing around preloaded bearings is not stated, or the preload alone exceeds the static rating of a bearing.",
+        help: "State `housing: { material: ... }` in `preload`, or correct the preload.";
 }

@@ -17,9 +17,9 @@ pub use readings::{MemberTorques, Reading};
 use scratch::Models;
 pub use scratch::Scratch;
 pub(crate) use snapshot::{Asked, Snapshot};
-pub use solution::{PartLoss, Solution};
+pub use solution::{PartLoss, PreloadAt, Solution};
 
-use crate::attach::State;
+use crate::attach::{Oil, State};
 use crate::flow::{Balance, Drive, FlowState, Outcome, Start, Status, Tolerance};
 use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
@@ -190,6 +190,7 @@ impl Transmission {
         case.motion.speeds(&s.prescribed, &mut c.speeds);
         self.oils.write_states(&c.temperatures, &mut c.oils);
         c.surface = self.oils.surface(&c.speeds);
+        self.write_closings(&c.temperatures, &c.oils, &mut m.closings);
         c.forget();
         s.called += c.calls.replace(0);
         c.loads.fill(SupportLoad::default());
@@ -267,7 +268,7 @@ impl Transmission {
         self.rest(case, s, notes);
         if notes && converged {
             self.note_static_safety(&mut s.models);
-            self.note_springs(case, &mut s.models);
+            self.note_pairs(case, &mut s.models);
         }
         self.finish(outcome, s);
         if noting == Noting::Counted && converged {
@@ -345,7 +346,7 @@ impl Transmission {
         let c = &mut m.conditions;
         let group = &self.loads.groups()[group];
         self.loads
-            .evaluate(group, &m.forces, &c.speeds, &mut m.passed, &mut c.loads);
+            .evaluate(group, &m.forces, &c.speeds, &m.closings, &mut m.passed, &mut c.loads);
         self.correct_loads(case, group, ports, &mut c.loads);
         if self.uneven {
             for (which, loads) in m.uneven_loads.iter_mut().enumerate() {
@@ -353,7 +354,7 @@ impl Transmission {
                     *force = *mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
                 }
                 self.loads
-                    .evaluate(group, &m.uneven_forces, &c.speeds, &mut m.passed, loads);
+                    .evaluate(group, &m.uneven_forces, &c.speeds, &m.closings, &mut m.passed, loads);
                 self.correct_loads(case, group, ports, loads);
             }
         }
@@ -373,16 +374,39 @@ impl Transmission {
         }
     }
 
-    /// Notes by how much the axial loads of pairs with a spring exceed the thrust that their radial loads induce; on planets with the mean
-    /// load. Imported loads do not follow from it.
-    fn note_springs<R: Points>(&self, case: &Case, m: &mut Models<R>) {
+    /// Writes the closing of each pair with a preload at the temperatures of its surroundings, by its member. \[m\]
+    fn write_closings<R: Points>(&self, temperatures: &[R], oils: &[Oil<R>], closings: &mut [R]) {
+        for pair in &self.pairs {
+            if let Some(preload) = &pair.preload {
+                closings[pair.member] = preload.closing_at(preload.temperatures(temperatures, oils));
+            }
+        }
+    }
+
+    /// Notes of pairs, on planets with the mean load: with a spring, by how much the axial loads exceed the thrust that their radial loads
+    /// induce; with a preload, the closing of each bearing in um. Imported loads do not follow from it.
+    fn note_pairs<R: Points>(&self, case: &Case, m: &mut Models<R>) {
         let c = &m.conditions;
-        let sprung = self.pairs.iter().filter_map(|pair| Some((pair, pair.spring?)));
-        for ((pair, spring), cells) in sprung.zip(c.cells[self.pair_cells()..].chunks(2)) {
-            let loads = self
-                .loads
-                .pair_loads(spring.support, &m.forces, &c.speeds, &mut m.passed);
-            let reserves = loads.map_or([R::ZERO; 2], |loads| loads.reserve(spring));
+        let noted = self
+            .pairs
+            .iter()
+            .filter(|pair| pair.spring.is_some() || pair.preload.is_some());
+        for (pair, cells) in noted.zip(c.cells[self.pair_cells()..].chunks(2)) {
+            let Some(support) = pair.supports().next() else {
+                continue;
+            };
+            let reserves = if let Some(spring) = pair.spring {
+                let loads = self
+                    .loads
+                    .pair_loads(support, &m.forces, &c.speeds, &m.closings, &mut m.passed);
+                loads.map(|loads| loads.reserve(spring))
+            } else {
+                let closings = self
+                    .loads
+                    .pair_closings(support, &m.forces, &c.speeds, &m.closings, &mut m.passed);
+                closings.map(|closings| closings.map(|own| own * 1e6))
+            };
+            let reserves = reserves.unwrap_or([R::ZERO; 2]);
             let imported = self.imported.as_ref();
             for ((support, reserve), cell) in pair.noted().zip(reserves).zip(cells) {
                 if imported.is_none_or(|own| own.reads(case.state, support).is_none()) {

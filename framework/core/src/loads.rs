@@ -12,6 +12,8 @@ mod pair;
 mod shaft_loads;
 mod static_rating;
 mod statics;
+mod stiff_pair;
+mod thermal_closing;
 mod thrust;
 
 pub use carries::{Carries, Thrust};
@@ -20,6 +22,8 @@ pub use layout::{Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Sectio
 pub use pair::{Pair, PairLoads, PairSpring, PairedSupport};
 pub use shaft_loads::{Group, ShaftLoads};
 pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};
+pub use stiff_pair::{AngularRow, StiffPair};
+pub use thermal_closing::{Mounting, ThermalClosing};
 
 use crate::real::Points;
 

@@ -26,6 +26,7 @@ pub use law::{Follows, Law, ROUNDED, settle};
 pub use scalar::{Lookup, Scalar};
 pub use slot::{ModelRef, NamedSlots, Slot};
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use schemars::JsonSchema;
@@ -33,7 +34,7 @@ use serde::de::DeserializeOwned;
 
 use crate::attach::Attach;
 use crate::document::Unit;
-use crate::loads::{Carries, Induced, StaticRating};
+use crate::loads::{AngularRow, Carries, Induced, StaticRating};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::real::{Dual, Lane, Points, Real};
 
@@ -195,6 +196,13 @@ pub trait Component: Mechanism<Answer = Loss> {
     /// The thrust that a radial load induces by the design of a part.
     fn induced(_part: &Self::Part) -> Induced {
         Induced::None
+    }
+    /// How a part with a contact angle is displaced by an axial load; an error says why this is not known.
+    ///
+    /// # Errors
+    /// If the part has no contact angle, or its geometry is not known.
+    fn angular_row(_part: &Self::Part) -> Result<AngularRow, Cow<'static, str>> {
+        Err("it is no rolling bearing".into())
     }
     /// Name of a part in messages about it, such as its designation.
     fn name(_part: &Self::Part) -> String {

@@ -12,6 +12,7 @@ mod oils;
 mod pairs;
 mod planets;
 mod plausible;
+mod preloads;
 mod seats;
 mod stage;
 mod states;
@@ -20,11 +21,13 @@ mod torque_order;
 
 use std::sync::Arc;
 
+pub use crate::loads::Mounting;
 pub use case::Case;
 pub(crate) use drags::DragSeat;
 pub use nodes::{AMBIENT, HeatPath};
 pub use oils::{Oils, Surface};
-pub use pairs::{BearingPair, Mounting, PairedBearing};
+pub use pairs::{BearingPair, PairedBearing};
+pub use preloads::{BodyTemperature, PairPreload, PreloadBy};
 pub use seats::GearSeat;
 pub(crate) use seats::MeshSeat;
 pub use stage::Stage;
@@ -183,7 +186,7 @@ pub struct Transmission {
     pub(crate) components: Vec<Component>,
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) instances: Vec<Instance>,
-    /// Cells of notes: those of the models, then the static safety of each rated support, then two of each pair with a spring.
+    /// Cells of notes: those of the models, then the static safety of each rated support, then two of each pair with a spring or a preload.
     pub(crate) cells: usize,
     /// As [`Self::limited`].
     pub(crate) limited: Arc<[(usize, usize)]>,
@@ -250,7 +253,7 @@ impl Transmission {
     pub fn rated_cells(&self) -> usize {
         self.pair_cells() - self.rated.len()
     }
-    /// Cell of notes of the first pair with a spring; the cells of rated supports precede it.
+    /// Cell of notes of the first pair with a spring or a preload; the cells of rated supports precede it.
     pub fn pair_cells(&self) -> usize {
         self.cells - self.pairs.iter().map(BearingPair::cells).sum::<usize>()
     }

@@ -13,9 +13,10 @@ use std::fmt::Display;
 use gearloss_framework::evaluate::{PowerFlow, Solution};
 use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::transmission::Transmission;
+use gearloss_framework::transmission::{BearingPair, Transmission};
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::pairs::preload_records;
 use gearloss_studies::points::{Found, PreparedPoint, STATIC_SAFETY, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
 
 pub use derivatives::derivatives_text;
@@ -102,7 +103,8 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
     // Without a power flow there are no loads and losses.
     let flow = solution.has_flow();
     if flow && !transmission.supports().is_empty() {
-        let paired = transmission.pairs().iter().any(|pair| pair.spring.is_none());
+        let induced = |pair: &BearingPair| pair.spring.is_none() && pair.preload.is_none();
+        let paired = transmission.pairs().iter().any(induced);
         let mut head = vec!["bearing", "radial N", "axial N", "tilting Nm"];
         if paired {
             head.insert(3, "of it induced N");
@@ -128,6 +130,9 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
             }
         }
         blocks.table(loads);
+        for preload in preload_records(transmission, solution) {
+            blocks.text(&(preload.sentence() + "\n"));
+        }
         blocks.text("\n");
     }
     let mut parts = TextTable::new(&[

@@ -1,12 +1,13 @@
 //! Opposed bearings that load each other, as a checked gearbox shows them.
 
+use gearloss_framework::evaluate::Solution;
 use gearloss_framework::loads::{InducedBasis, InducedThrust};
 use gearloss_framework::resolve::{Resolved, ValueSource, lookup};
-use gearloss_framework::transmission::{BearingPair, Mounting, Transmission};
+use gearloss_framework::transmission::{BearingPair, BodyTemperature, Mounting, PairPreload, PreloadBy, Transmission};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::analyses::numbers::significant;
+use crate::analyses::numbers::{figures, significant};
 
 /// Opposed angular contact or tapered roller bearings that load each other.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -19,6 +20,8 @@ pub struct PairCard {
     pub mounting: Option<Mounting>,
     /// Spring on one of them; null without a spring.
     pub spring: Option<SpringCard>,
+    /// Preload or end play of both; null if none is stated.
+    pub preload: Option<PreloadCard>,
 }
 
 /// A bearing of a pair.
@@ -46,6 +49,168 @@ pub struct SpringCard {
     pub force_n: f64,
 }
 
+/// Preload or end play of a pair.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct PreloadCard {
+    /// Path of the bearing that states it.
+    pub bearing: String,
+    /// What is stated.
+    #[schemars(extend("enum" = ["force", "closing", "torque"]))]
+    pub stated: &'static str,
+    /// Temperature of all parts at mounting. [degC]
+    pub mounting_temperature_degc: f64,
+    /// Force at mounting temperature, without other loads; zero with end play. [N]
+    pub force_n: f64,
+    /// Distance by which both bearings together are closed at mounting temperature; negative with end play. [um]
+    pub closing_um: f64,
+    /// Axial stiffness of the shaft between both at this force; null with end play. [N/um]
+    pub stiffness_n_per_um: Option<f64>,
+    /// Distance of the contacts with the outer rings along the shaft. [mm]
+    pub distance_mm: f64,
+    /// Change of the closing per kelvin of the shaft. [um]
+    pub per_kelvin_of_shaft_um: f64,
+    /// Change of the closing per kelvin of the housing. [um]
+    pub per_kelvin_of_housing_um: f64,
+    /// What the temperature of the shaft is.
+    pub shaft_temperature: String,
+    /// What the temperature of the housing is.
+    pub housing_temperature: String,
+}
+
+/// Preload of a pair at a point.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct PreloadRecord {
+    /// Shaft or gear that the pair carries.
+    pub member: String,
+    /// Paths of both bearings, the one that takes thrust towards -x first.
+    pub bearings: [String; 2],
+    /// Temperature of the shaft. [degC]
+    pub shaft_degc: f64,
+    /// Temperature of the housing. [degC]
+    pub housing_degc: f64,
+    /// Distance by which both bearings together are closed; negative with end play. [um]
+    pub closing_um: f64,
+    /// The part of it that temperature adds to that at mounting. [um]
+    pub thermal_closing_um: f64,
+    /// Force with which both would press against each other without other loads; zero with end play. [N]
+    pub preload_n: f64,
+    /// Distance by which each bearing is closed under its loads; below zero less than half of its rolling elements carry, none without radial
+    /// load. [um]
+    pub closings_um: [f64; 2],
+    /// True if that of a bearing is below zero.
+    pub lost: bool,
+}
+
+/// The preloads of the pairs of a transmission at a point, in their order; empty without a power flow.
+pub fn preload_records(transmission: &Transmission, solution: &Solution<'_>) -> Vec<PreloadRecord> {
+    let of_pair = |(number, pair): (usize, &BearingPair)| {
+        let at = solution.preload(number).filter(|_| solution.has_flow())?;
+        let mounted = pair.preload.as_ref()?.closing;
+        let mut paths = pair.supports().map(|support| transmission.supports()[support].clone());
+        let [shaft, housing] = at.temperatures;
+        Some(PreloadRecord {
+            member: transmission.members()[pair.member].clone(),
+            bearings: [paths.next()?, paths.next()?],
+            shaft_degc: shaft,
+            housing_degc: housing,
+            closing_um: 1e6 * at.closing,
+            thermal_closing_um: 1e6 * (at.closing - mounted),
+            preload_n: at.force,
+            closings_um: at.closings.map(|own| 1e6 * own),
+            lost: at.closings.iter().any(|own| *own < 0.0),
+        })
+    };
+    transmission.pairs().iter().enumerate().filter_map(of_pair).collect()
+}
+
+impl PreloadRecord {
+    /// It as a line.
+    pub fn sentence(&self) -> String {
+        let [left, right] = self.bearings.each_ref().map(|path| id(path));
+        let words = if self.closing_um > 0.0 { "closed by" } else { "end play" };
+        let lost = if self.lost { "; preload lost" } else { "" };
+        format!(
+            "pair {left}/{right} of {}: {words} {} um, of it {} um by temperature (shaft {} degC, housing {} degC); preload {} N; \
+             under load {left} {} um, {right} {} um{lost}",
+            self.member,
+            short(self.closing_um.abs()),
+            short(self.thermal_closing_um),
+            short(self.shaft_degc),
+            short(self.housing_degc),
+            short(self.preload_n),
+            short(self.closings_um[0]),
+            short(self.closings_um[1]),
+        )
+    }
+}
+
+/// A number as in lines for reading.
+fn short(x: f64) -> String {
+    figures(x, 4)
+}
+
+/// The preload of a pair.
+fn preload_card(transmission: &Transmission, preload: &PairPreload) -> PreloadCard {
+    let temperature = |body: BodyTemperature| match body {
+        BodyTemperature::Stated(temperature) => format!("{} degC", significant(temperature)),
+        BodyTemperature::Node(node) => {
+            let network = transmission.network();
+            let name = network.and_then(|network| network.names().get(node).cloned());
+            format!("node {}", name.unwrap_or_default())
+        }
+        BodyTemperature::AboveOil { above: 0.0, .. } => "that of the oil".to_owned(),
+        BodyTemperature::AboveOil { above, .. } if above > 0.0 => format!("oil + {} K", significant(above)),
+        BodyTemperature::AboveOil { above, .. } => format!("oil - {} K", significant(-above)),
+    };
+    let [of_shaft, of_housing] = preload.per_kelvin;
+    let [shaft, housing] = preload.temperatures.map(temperature);
+    PreloadCard {
+        bearing: transmission.supports()[preload.support].clone(),
+        stated: match preload.stated {
+            PreloadBy::Force => "force",
+            PreloadBy::Closing => "closing",
+            PreloadBy::Torque => "torque",
+        },
+        mounting_temperature_degc: preload.mounting_temperature,
+        force_n: preload.force,
+        closing_um: 1e6 * preload.closing,
+        stiffness_n_per_um: (preload.force > 0.0).then(|| 1e-6 * preload.bearings.stiffness(preload.force)),
+        distance_mm: 1e3 * preload.distance,
+        per_kelvin_of_shaft_um: 1e6 * of_shaft,
+        per_kelvin_of_housing_um: 1e6 * of_housing,
+        shaft_temperature: shaft,
+        housing_temperature: housing,
+    }
+}
+
+impl PreloadCard {
+    /// It in words.
+    fn words(&self) -> String {
+        let mounted = match self.stiffness_n_per_um {
+            Some(stiffness) => format!(
+                "preload {} N ({} um, {} N/um)",
+                short(self.force_n),
+                short(self.closing_um),
+                short(stiffness)
+            ),
+            None => format!("end play {} um", short(-self.closing_um)),
+        };
+        let signed = |um: f64| {
+            let sign = if um < 0.0 { "-" } else { "+" };
+            format!("{sign}{} um/K", short(um.abs()))
+        };
+        format!(
+            "{mounted} at {} degC, {} of the shaft ({}), {} of the housing ({}), contacts {} mm apart",
+            short(self.mounting_temperature_degc),
+            signed(self.per_kelvin_of_shaft_um),
+            self.shaft_temperature,
+            signed(self.per_kelvin_of_housing_um),
+            self.housing_temperature,
+            short(self.distance_mm),
+        )
+    }
+}
+
 /// The pairs of a transmission, in its order.
 pub fn pair_cards(transmission: &Transmission, resolved: &Resolved) -> Vec<PairCard> {
     let card = |pair: &BearingPair| {
@@ -68,6 +233,7 @@ pub fn pair_cards(transmission: &Transmission, resolved: &Resolved) -> Vec<PairC
                 bearing: path(spring.support),
                 force_n: spring.force,
             }),
+            preload: pair.preload.as_ref().map(|preload| preload_card(transmission, preload)),
         }
     };
     transmission.pairs().iter().map(card).collect()
@@ -84,6 +250,8 @@ fn follows_from(resolved: &Resolved, bearing: &str, induced: InducedThrust) -> S
     };
     match induced.basis {
         InducedBasis::Stated => source,
+        // Its angle may be estimated, which the evidence says.
+        basis @ InducedBasis::HalfLoaded(_) => basis.to_string(),
         basis => format!("{basis}, {source}"),
     }
 }
@@ -125,6 +293,9 @@ impl PairCard {
                 id(&spring.bearing)
             )
         });
+        if let Some(preload) = &self.preload {
+            return format!("{}: {}; {}", self.name(), self.mounting_words(), preload.words());
+        }
         format!(
             "{}: {}; induced thrust per radial load {thrusts}{spring}",
             self.name(),

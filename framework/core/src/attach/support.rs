@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Attach, Names, Oil, Spot, State, sealed};
+use super::{Attach, Names, Oil, PreloadEntry, Spot, State, sealed};
 use crate::immersion::Height;
 use crate::real::Points;
 
@@ -34,6 +34,8 @@ pub struct SupportPlace {
     #[serde(default)]
     #[schemars(range(min = -1e6, max = 1e6))]
     pub spring_preload: f64,
+    /// Preload of this and the opposed bearing of a pair without a spring, or their end play; stated at one of them.
+    pub preload: Option<PreloadEntry>,
     /// Thrust induced by the radial load, per radial load. Default for tapered roller and angular contact ball bearings of which one takes
     /// thrust to the left, one to the right: 0.5/Y, or by `contact_angle`. Zero: no induced thrust, as of a bearing without contact angle. [-]
     #[schemars(range(min = 0.0, max = 3.0))]

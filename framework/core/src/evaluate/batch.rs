@@ -256,6 +256,7 @@ impl Scratch<Lane> {
         c.surface = Lane::constant(common.surface);
         c.common = true;
         c.forget();
+        spread(&mut own.closings, &from.closings);
         spread(&mut own.relative, &from.relative);
         own.rests.clone_from(&from.rests);
         losses(&mut own.component_losses, &from.component_losses);

@@ -92,6 +92,8 @@ pub(super) struct Models<R: Points> {
     /// Tangential forces with those of a planet's meshes; empty if planets share equally.
     pub uneven_forces: Vec<R>,
     pub passed: Vec<R>,
+    /// Closings of pairs with a preload, by member; empty without such pairs. \[m\]
+    pub closings: Vec<R>,
     /// Tangential force of each mesh as its law was evaluated, and at the present torques. \[N\]
     pub tangential: Vec<R>,
     pub forces: Vec<R>,
@@ -198,6 +200,11 @@ impl<R: Points> Scratch<R> {
                 uneven_loads: [(); 2].map(|()| vec![SupportLoad::default(); uneven(supports)]),
                 uneven_forces: zeros(uneven(meshes)),
                 passed: zeros(transmission.loads.scratch_len()),
+                closings: zeros(if transmission.pairs.iter().any(|pair| pair.preload.is_some()) {
+                    transmission.members.len()
+                } else {
+                    0
+                }),
                 tangential: zeros(meshes),
                 forces: zeros(meshes),
                 component_losses: losses(transmission.components.len()),

@@ -44,6 +44,20 @@ impl PartLoss {
     }
 }
 
+/// Preload of a pair of bearings at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PreloadAt {
+    /// Temperatures of shaft and housing. \[degC\]
+    pub temperatures: [f64; 2],
+    /// Closing of the pair at them, negative with end play. \[m\]
+    pub closing: f64,
+    /// Force with which the bearings would press against each other without other loads; zero with end play. \[N\]
+    pub force: f64,
+    /// By how much each bearing is closed under its loads, the one that takes thrust towards -x first; below zero less than half of its elements
+    /// carry, none without radial load. \[m\]
+    pub closings: [f64; 2],
+}
+
 /// Results of a model at some points, with their relative speed, the factor on them, and where the part is stationary.
 type PartState<'s, R> = (&'s Result<Loss<R>, Undefined>, R, R, <R as Real>::Mask);
 
@@ -255,12 +269,39 @@ impl Solution<'_> {
             })
             .collect();
         let mut passed = vec![0.0; t.loads.scratch_len()];
-        t.loads
-            .pair_loads(support, &forces, &models.conditions.speeds, &mut passed)
+        t.loads.pair_loads(
+            support,
+            &forces,
+            &models.conditions.speeds,
+            &models.closings,
+            &mut passed,
+        )
+    }
+
+    /// The preload of a pair of the transmission by its number, with the mean loads of planets; `None` without one.
+    pub fn preload(&self, pair: usize) -> Option<PreloadAt> {
+        let t = self.transmission;
+        let own = t.pairs.get(pair)?;
+        let preload = own.preload.as_ref()?;
+        let models = &self.scratch.models;
+        let c = &models.conditions;
+        let temperatures = preload.temperatures(&c.temperatures, &c.oils);
+        let closing = preload.closing_at(temperatures);
+        let mut passed = vec![0.0; t.loads.scratch_len()];
+        let support = own.supports().next()?;
+        let closings = t
+            .loads
+            .pair_closings(support, &models.forces, &c.speeds, &models.closings, &mut passed)?;
+        Some(PreloadAt {
+            temperatures,
+            closing,
+            force: preload.bearings.force(closing),
+            closings,
+        })
     }
 
     /// The part of the axial load of a support that induced thrust adds, with its load factor; on the most loaded planet if this is
-    /// requested. `None` if the support is in no pair, in one with a spring, or if its load is imported. \[N\]
+    /// requested. `None` if the support is in no pair, in one with a spring or a preload, or if its load is imported. \[N\]
     pub fn induced(&self, support: usize, most_loaded: bool) -> Option<f64> {
         let t = self.transmission;
         let number = t
@@ -269,7 +310,10 @@ impl Solution<'_> {
             .position(|pair| pair.supports().any(|own| own == support))?;
         let pair = &t.pairs[number];
         let imported = t.imported.as_ref();
-        if pair.spring.is_some() || imported.is_some_and(|own| own.reads(self.case.state, support).is_some()) {
+        if pair.spring.is_some()
+            || pair.preload.is_some()
+            || imported.is_some_and(|own| own.reads(self.case.state, support).is_some())
+        {
             return None;
         }
         let loads = self.pair_loads(number, most_loaded)?;

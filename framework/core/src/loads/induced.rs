@@ -51,6 +51,8 @@ pub enum InducedBasis {
     RollerAngle(f64),
     /// Contact angle of an angular contact ball bearing. \[rad\]
     BallAngle(f64),
+    /// Contact angle of a bearing of a preloaded pair: the thrust per radial load at which half of the elements carry. \[rad\]
+    HalfLoaded(f64),
 }
 
 impl Induced {
@@ -106,6 +108,7 @@ impl InducedBasis {
             Self::Stated => "`induced_thrust`",
             Self::AxialFactor(_) => "Y",
             Self::RollerAngle(_) | Self::BallAngle(_) => "contact angle",
+            Self::HalfLoaded(_) => "load distribution",
         }
     }
 
@@ -116,6 +119,10 @@ impl InducedBasis {
             Self::AxialFactor(_) | Self::RollerAngle(_) => Some((
                 Evidence::SeveralSources,
                 "rule of catalogues for half of the rollers, and load distribution",
+            )),
+            Self::HalfLoaded(_) => Some((
+                Evidence::SeveralSources,
+                "load integrals of a fixed contact angle, printed by catalogues",
             )),
             Self::BallAngle(angle) => {
                 let tabulated = |known: &f64| (known - angle.to_degrees()).abs() < 1e-6;
@@ -136,7 +143,7 @@ impl InducedBasis {
         match self {
             Self::Stated => "induced_thrust",
             Self::AxialFactor(_) => "y",
-            Self::RollerAngle(_) | Self::BallAngle(_) => "contact_angle",
+            Self::RollerAngle(_) | Self::BallAngle(_) | Self::HalfLoaded(_) => "contact_angle",
         }
     }
 }
@@ -150,6 +157,7 @@ impl fmt::Display for InducedBasis {
             Self::AxialFactor(y) => write!(f, "0.5/Y, Y = {y}"),
             Self::RollerAngle(angle) => write!(f, "1.25 tan(alpha), alpha = {} deg", degrees(*angle)),
             Self::BallAngle(angle) => write!(f, "contact angle {} deg", degrees(*angle)),
+            Self::HalfLoaded(angle) => write!(f, "load distribution, contact angle {} deg", degrees(*angle)),
         }
     }
 }

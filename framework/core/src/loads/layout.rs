@@ -1,6 +1,7 @@
 //! Input of statics: members on axes, supports, meshes.
 
 use crate::attach::Axial;
+use crate::rolling::AxialRow;
 
 /// A section of a shaft with constant diameters, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,6 +71,8 @@ pub struct SupportLayout {
     pub tilting_stiffness: Option<f64>,
     /// Thrust induced by a radial load, per radial load; `None` if the bearing has no contact angle or it is not known.
     pub induced: Option<f64>,
+    /// Its axial displacement, of both bearings of a pair that is adjusted with a stated preload; `None` of others.
+    pub preloaded: Option<AxialRow>,
 }
 
 /// A mesh for statics.

@@ -3,11 +3,12 @@
 //!
 //! Source: the table of six cases that catalogues print for a thrust K and induced thrusts S. It is one law: the bearing that takes K has
 //! the larger of its own S and of the other's S plus K, and the other one has that minus K. A ring on a spring floats: it has the force of
-//! the spring, and the other bearing that and K.
+//! the spring, and the other bearing that and K. With a stated preload or end play the load distributions decide ([`StiffPair`]).
 
 use super::layout::{LoadFault, SupportLayout};
+use super::stiff_pair::StiffPair;
 use crate::attach::Axial;
-use crate::real::Real;
+use crate::real::{Points, Real};
 
 /// Supports of a member that take its thrust towards -x and towards +x and load each other. Usually there is one on each side.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +19,8 @@ pub struct Pair {
     pub sides: [Vec<PairedSupport>; 2],
     /// The support whose ring is on a spring.
     pub spring: Option<PairSpring>,
+    /// Both bearings, one on each side, if they are adjusted with a stated preload.
+    pub stiff: Option<StiffPair>,
 }
 
 /// A support of a pair.
@@ -84,7 +87,20 @@ impl Pair {
             return Ok(None);
         }
         let spring = Self::spring(member, supports, &sides)?;
-        Ok(Some(Self { member, sides, spring }))
+        let row = |side: &Vec<PairedSupport>| {
+            let [own] = side[..] else { return None };
+            supports.iter().find(|(number, _)| *number == own.support)?.1.preloaded
+        };
+        let stiff = match sides.each_ref().map(row) {
+            [Some(left), Some(right)] => Some(StiffPair { rows: [left, right] }),
+            _ => None,
+        };
+        Ok(Some(Self {
+            member,
+            sides,
+            spring,
+            stiff,
+        }))
     }
 
     fn spring(
@@ -126,17 +142,24 @@ impl Pair {
         }
     }
 
-    /// The loads under a thrust of the member towards +x and the radial load of each support.
+    /// The loads under a thrust of the member towards +x (N), at a closing (m) that matters with a stated preload, and the radial load of each
+    /// support (N).
     #[inline(always)]
-    pub fn loads<R: Real>(&self, thrust: R, radial: impl Fn(usize) -> R) -> PairLoads<R> {
+    pub fn loads<R: Points>(&self, thrust: R, closing: R, radial: impl Fn(usize) -> R) -> PairLoads<R> {
         let [left, right] = [0, 1].map(|side| {
             let paired = self.sides[side].iter();
             paired.fold(R::ZERO, |sum, paired| sum + radial(paired.support) * paired.induced)
         });
-        let axial = match self.spring {
-            Some(PairSpring { side: 0, force, .. }) => [(-thrust).at_least(force), (thrust + force).at_least(0.0)],
-            Some(PairSpring { force, .. }) => [(-thrust + force).at_least(0.0), thrust.at_least(force)],
-            None => {
+        let axial = match (&self.stiff, self.spring) {
+            (Some(stiff), _) => {
+                let radial = [0, 1].map(|side| radial(self.sides[side][0].support));
+                stiff.axial(thrust, radial, closing)
+            }
+            (None, Some(PairSpring { side: 0, force, .. })) => {
+                [(-thrust).at_least(force), (thrust + force).at_least(0.0)]
+            }
+            (None, Some(PairSpring { force, .. })) => [(-thrust + force).at_least(0.0), thrust.at_least(force)],
+            (None, None) => {
                 let pushed = (thrust + left).is_below(right);
                 [
                     R::select(pushed, right - thrust, left),

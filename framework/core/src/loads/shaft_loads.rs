@@ -7,7 +7,7 @@ use super::layout::{Layout, LoadFault, MemberLayout, SupportLayout};
 use super::pair::{Pair, PairLoads};
 use super::statics::{Action, Reaction, Statics};
 use super::thrust::Taking;
-use crate::real::Real;
+use crate::real::{Points, Real};
 
 /// Loads of all supports as a function of the tangential force of each mesh.
 #[derive(Debug, Clone)]
@@ -242,13 +242,15 @@ impl ShaftLoads {
     }
 
     /// Writes the loads of the supports of a group. `tangential` is the signed tangential force of one copy of each mesh (N), `speeds`
-    /// are those of all members (rad/s), the length of `passed` is [`ShaftLoads::scratch_len`].
+    /// are those of all members (rad/s), `closings` those of pairs with a stated preload by member (m), the length of `passed` is
+    /// [`ShaftLoads::scratch_len`].
     #[inline(always)]
-    pub fn evaluate<R: Real>(
+    pub fn evaluate<R: Points>(
         &self,
         group: &Group,
         tangential: &[R],
         speeds: &[R],
+        closings: &[R],
         passed: &mut [R],
         loads: &mut [SupportLoad<R>],
     ) {
@@ -268,7 +270,7 @@ impl ShaftLoads {
         }
         if let Some(own) = group.members.last() {
             let (thrust, scale) = self.thrust(group, *own, tangential, passed);
-            self.order[*own].taking.share(thrust, scale, loads);
+            self.order[*own].taking.share(thrust, scale, closings, loads);
         }
     }
 
@@ -301,11 +303,12 @@ impl ShaftLoads {
     /// The loads of a pair before load factors, by the number of one of its supports; the other arguments are those of
     /// [`ShaftLoads::evaluate`]. `None` if the support is in no pair.
     #[inline(always)]
-    pub fn pair_loads<R: Real>(
+    pub fn pair_loads<R: Points>(
         &self,
         support: usize,
         tangential: &[R],
         speeds: &[R],
+        closings: &[R],
         passed: &mut [R],
     ) -> Option<PairLoads<R>> {
         let group = &self.groups[self.group_of[support]];
@@ -313,9 +316,28 @@ impl ShaftLoads {
         let taking = &self.order[own].taking;
         let pair = taking.pair()?;
         let (thrust, _) = self.thrust(group, own, tangential, passed);
-        Some(pair.loads(taking.with_springs(thrust), |support| {
+        let closing = closings.get(pair.member).copied().unwrap_or(R::ZERO);
+        Some(pair.loads(taking.with_springs(thrust), closing, |support| {
             self.cases[support].radial(tangential, speeds)
         }))
+    }
+
+    /// By how much each bearing of a pair with a stated preload is closed; the arguments are those of [`ShaftLoads::pair_loads`]. `None` of
+    /// other supports. \[m\]
+    pub fn pair_closings<R: Points>(
+        &self,
+        support: usize,
+        tangential: &[R],
+        speeds: &[R],
+        closings: &[R],
+        passed: &mut [R],
+    ) -> Option<[R; 2]> {
+        let loads = self.pair_loads(support, tangential, speeds, closings, passed)?;
+        let own = *self.groups[self.group_of[support]].members.last()?;
+        let pair = self.order[own].taking.pair()?;
+        let radial = [0, 1].map(|side| self.cases[pair.sides[side][0].support].radial(tangential, speeds));
+        let closing = closings.get(pair.member).copied()?;
+        Some(pair.stiff.as_ref()?.closings(loads.axial, radial, closing))
     }
 
     /// The force of each support on its member, y and z, for given tangential forces at standstill. \[N\]

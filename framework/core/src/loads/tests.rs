@@ -26,6 +26,7 @@ fn support(inner: usize, at_mm: f64, axial: Axial) -> SupportLayout {
         radial_stiffness: None,
         tilting_stiffness: None,
         induced: None,
+        preloaded: None,
     }
 }
 
@@ -114,11 +115,11 @@ fn two_speed() -> Layout {
 }
 
 /// The loads of all supports.
-fn all<R: Real>(solved: &ShaftLoads, tangential: &[R], speeds: &[R]) -> Vec<SupportLoad<R>> {
+fn all<R: Points>(solved: &ShaftLoads, tangential: &[R], speeds: &[R]) -> Vec<SupportLoad<R>> {
     let mut loads = vec![SupportLoad::default(); solved.cases.len()];
     for group in solved.groups() {
         let mut passed = vec![R::ZERO; solved.scratch_len()];
-        solved.evaluate(group, tangential, speeds, &mut passed, &mut loads);
+        solved.evaluate(group, tangential, speeds, &[], &mut passed, &mut loads);
     }
     loads
 }
@@ -961,10 +962,12 @@ fn loads_of_a_pair_are_found_together() {
     assert!(loads[0].radial < 1e-9 && loads[1].radial > 1000.0);
     assert_eq!([loads[0].axial, loads[1].axial], [0.3 * loads[1].radial; 2]);
     let mut passed = vec![0.0; solved.scratch_len()];
-    let pair = solved.pair_loads(1, &[0.0, 1000.0], &[0.0; 3], &mut passed).unwrap();
+    let pair = solved
+        .pair_loads(1, &[0.0, 1000.0], &[0.0; 3], &[], &mut passed)
+        .unwrap();
     assert_eq!(pair.axial, [loads[0].axial, loads[1].axial]);
     assert_eq!((pair.thrust, pair.mutual()), (0.0, loads[0].axial));
-    assert_eq!(solved.pair_loads(2, &[0.0, 1000.0], &[0.0; 3], &mut passed), None);
+    assert_eq!(solved.pair_loads(2, &[0.0, 1000.0], &[0.0; 3], &[], &mut passed), None);
 }
 
 #[test]
@@ -984,10 +987,11 @@ fn the_reserve_of_a_spring_is_what_it_has_over_the_induced_thrust() {
             support: of,
             force: 800.0,
         }),
+        stiff: None,
     };
     let reserve = |of: usize, thrust: f64| {
         let pair = pair(of);
-        pair.loads(thrust, |support| [2000.0, 1000.0][support])
+        pair.loads(thrust, 0.0, |support| [2000.0, 1000.0][support])
             .reserve(pair.spring.unwrap())
     };
     // 600 N and 300 N are induced. A thrust towards +x loads the second bearing.

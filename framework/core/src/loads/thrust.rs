@@ -4,7 +4,7 @@ use super::SupportLoad;
 use super::layout::{LoadFault, SupportLayout};
 use super::pair::Pair;
 use crate::attach::Axial;
-use crate::real::Real;
+use crate::real::{Points, Real};
 
 /// The thrust arrangement of one member, over its own supports.
 #[derive(Debug, Clone)]
@@ -96,15 +96,17 @@ impl Taking {
         R::select(rest.abs().is_above(scale * 1e-9), rest, R::ZERO)
     }
 
-    /// Adds the axial load of each support for a thrust towards +x, and the untaken thrust.
+    /// Adds the axial load of each support for a thrust towards +x, and the untaken thrust. `closings` are those of pairs with a stated preload,
+    /// by member. \[m\]
     #[inline(always)]
-    pub fn share<R: Real>(&self, thrust: R, scale: R, loads: &mut [SupportLoad<R>]) {
+    pub fn share<R: Points>(&self, thrust: R, scale: R, closings: &[R], loads: &mut [SupportLoad<R>]) {
         for (i, spring) in &self.springs {
             loads[*i].axial += R::constant(spring.abs());
         }
         if let Some(pair) = &self.pair {
+            let closing = closings.get(pair.member).copied().unwrap_or(R::ZERO);
             let totals = pair
-                .loads(self.with_springs(thrust), |support| loads[support].radial)
+                .loads(self.with_springs(thrust), closing, |support| loads[support].radial)
                 .axial;
             for (side, total) in pair.sides.iter().zip(totals) {
                 for paired in side {

@@ -5,11 +5,13 @@ mod film;
 mod grease;
 mod internal;
 
+use std::borrow::Cow;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::attach::{Support, SupportSite};
-use crate::loads::{Carries, Induced, StaticFactors, StaticRating, Thrust};
+use crate::loads::{AngularRow, Carries, Induced, StaticFactors, StaticRating, Thrust};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::maker::bare;
 use crate::mechanism::{Component, Mechanism, Scalar};
@@ -675,6 +677,10 @@ impl Component for Bearing {
 
     fn induced(part: &BearingPart) -> Induced {
         part.induced()
+    }
+
+    fn angular_row(part: &BearingPart) -> Result<AngularRow, Cow<'static, str>> {
+        part.angular_row()
     }
 
     fn name(part: &BearingPart) -> String {

@@ -1,6 +1,7 @@
 //! A placed component with its model, the unit of evaluation.
 
 use std::any::Any;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -11,7 +12,7 @@ use super::{Entry, from_resolved};
 use crate::attach::{Attach, Common, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
-use crate::loads::{Carries, Induced, StaticRating};
+use crate::loads::{AngularRow, Carries, Induced, StaticRating};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::{Answers, Component, Slot};
 use crate::rating::{Rated, RatingSlot};
@@ -57,6 +58,17 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     /// The thrust that a radial load induces by its design.
     fn induced(&self) -> Induced {
         Induced::None
+    }
+    /// How it is displaced by an axial load.
+    ///
+    /// # Errors
+    /// Why this is not known.
+    fn angular_row(&self) -> Result<AngularRow, Cow<'static, str>> {
+        Err("it carries no load".into())
+    }
+    /// Number of its oil, if it has one only.
+    fn oil(&self) -> Option<u16> {
+        None
     }
     /// Its name in messages, such as its designation.
     fn name(&self) -> String {
@@ -147,6 +159,12 @@ impl<C: Component> Placed for PlacedAs<C> {
     }
     fn induced(&self) -> Induced {
         C::induced(&self.part)
+    }
+    fn angular_row(&self) -> Result<AngularRow, Cow<'static, str>> {
+        C::angular_row(&self.part)
+    }
+    fn oil(&self) -> Option<u16> {
+        Some(self.spot.oil)
     }
     fn name(&self) -> String {
         C::name(&self.part)

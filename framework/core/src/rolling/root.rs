@@ -48,7 +48,7 @@ pub(super) fn root(f: impl Fn(f64) -> f64, low: f64, high: f64) -> Option<f64> {
 
 /// The root of a function that grows, from a bracket that is widened until it contains the root; `None` if that needs more than
 /// `doublings` of its width.
-pub(super) fn root_of_growing(f: impl Fn(f64) -> f64, start: f64, width: f64, doublings: u32) -> Option<f64> {
+pub(crate) fn root_of_growing(f: impl Fn(f64) -> f64, start: f64, width: f64, doublings: u32) -> Option<f64> {
     let (mut low, mut high) = (start, start);
     let mut step = width;
     if f(start) < 0.0 {

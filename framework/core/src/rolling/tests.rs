@@ -1,9 +1,9 @@
 //! Values of independent calculations (SciPy), printed values of other programs and catalogues, limits and symmetries.
 
+mod axial;
 mod balls;
 mod high_speed;
 mod integrals;
-mod pairs;
 mod properties;
 mod rollers;
 

@@ -10,6 +10,7 @@ use super::oils::OilNumbers;
 use super::pairs::{BearingPair, Design};
 use super::planets::{self, Held};
 use super::plausible;
+use super::preloads::Preloading;
 use super::seats::{GearSeat, MeshSeat};
 use super::states::{GearState, states};
 use super::statics::{Imported, imported, load_factors, shaft_loads};
@@ -30,6 +31,7 @@ use crate::thermal::Housing;
 use crate::thermal::network::{Around, Network};
 use serde::Deserialize;
 use serde_json::Value;
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -94,20 +96,36 @@ impl Transmission {
             &mut found,
         );
         classify(&mut found, codes::POWER_FLOW);
-        let loads = models.shaft_loads(&frame, &mut memory, &mut found, &mut warnings);
+        let designs = models.designs();
+        let loads = models.shaft_loads(&frame, &designs, &mut memory, &mut found, &mut warnings);
         let load_factors = load_factors(supports, ports, &mut found);
         let imported = imported_loads(entry, files, ports, &states, supports, &mut found);
-        classify(&mut found, codes::SUPPORT);
         let (oils, mut more) = oils.finish();
+        let pairs = loads
+            .as_ref()
+            .filter(|_| found.is_empty() && more.is_empty())
+            .map(|loads| {
+                let preloading = Preloading {
+                    supports,
+                    designs: &designs,
+                    components: &models.components,
+                    nodes: &frame.nodes,
+                    oils: &oils,
+                    members: &members.names,
+                };
+                let pairs = BearingPair::all(loads, &preloading, &mut found);
+                warnings.extend(pairs.iter().flat_map(|pair| pair.warnings(&preloading)));
+                pairs
+            });
+        classify(&mut found, codes::SUPPORT);
         classify(&mut more, codes::LUBRICANT);
         // Errors of an oil cause many of the later ones.
         found.splice(0..0, more);
-        let Some(loads) = loads.filter(|_| found.is_empty()) else {
+        let (Some(loads), Some(pairs), true) = (loads, pairs, found.is_empty()) else {
             return Err(found);
         };
         let (instances, cells) = build.finish();
         let rated: Vec<RatedSupport> = models.components.iter().filter_map(rated).collect();
-        let pairs = BearingPair::all(&loads, supports, &models.designs());
         let parts = in_document_order(resolved, models.parts);
         if let Some(network) = &mut network {
             warnings.extend(network.warnings());
@@ -290,12 +308,14 @@ impl Models {
     /// The design of each support.
     fn designs(&self) -> Vec<Design> {
         let mut designs = vec![Design::default(); self.supports.len()];
+        let has_preload = self.supports.iter().any(|support| support.place.preload.is_some());
         for placed in self.components.iter().map(|component| &component.placed) {
             if let Some(support) = placed.support() {
                 designs[usize::from(support)] = Design {
                     name: placed.name(),
                     carries: placed.carries(),
                     induced: placed.induced(),
+                    row: has_preload.then(|| placed.angular_row().map_err(Cow::into_owned)),
                 };
             }
         }
@@ -306,11 +326,12 @@ impl Models {
     fn shaft_loads(
         &self,
         frame: &Frame,
+        designs: &[Design],
         memory: &mut Memory,
         found: &mut Vec<Diagnostic>,
         warnings: &mut Vec<Diagnostic>,
     ) -> Option<Arc<ShaftLoads>> {
-        let supports = (&self.supports[..], &self.designs()[..]);
+        let supports = (&self.supports[..], designs);
         shaft_loads(
             &frame.entry,
             &frame.members,

@@ -1,13 +1,13 @@
 //! Opposed bearings with a contact angle: which load each other, and which induced thrust is not in the loads.
 
-use schemars::JsonSchema;
-use serde::Serialize;
-
 use super::members::Members;
+use super::preloads::{PairPreload, Preloading};
 use crate::attach::{Axial, SeatedSupport, SupportPlace};
 use crate::codes;
 use crate::document::Diagnostic;
-use crate::loads::{Carries, Induced, InducedBasis, InducedThrust, Layout, PairSpring, ShaftLoads};
+use crate::loads::{
+    AngularRow, Carries, Induced, InducedBasis, InducedThrust, Layout, Mounting, PairSpring, ShaftLoads,
+};
 
 /// What the design of a support determines.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,8 @@ pub(super) struct Design {
     pub carries: Carries,
     /// The thrust that its radial load induces.
     pub induced: Induced,
+    /// How it is displaced by an axial load, or why this is not known; `None` without a preload in the gearbox.
+    pub row: Option<Result<AngularRow, String>>,
 }
 
 impl Default for Design {
@@ -26,6 +28,7 @@ impl Default for Design {
             name: String::new(),
             carries: Carries::ANY,
             induced: Induced::None,
+            row: None,
         }
     }
 }
@@ -44,7 +47,7 @@ impl Design {
     }
 }
 
-/// Opposed bearings that load each other by the thrust that their radial loads induce, or by a spring.
+/// Opposed bearings that load each other by the thrust that their radial loads induce, by a spring, or by a preload.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BearingPair {
     /// Number of the shaft or gear that they carry.
@@ -55,6 +58,8 @@ pub struct BearingPair {
     pub mounting: Option<Mounting>,
     /// The spring on one of them.
     pub spring: Option<PairSpring>,
+    /// Their stated preload or end play.
+    pub preload: Option<PairPreload>,
 }
 
 /// A bearing of a pair.
@@ -68,64 +73,56 @@ pub struct PairedBearing {
     pub share: f64,
 }
 
-/// How two bearings with a contact angle are mounted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Mounting {
-    /// X arrangement: each takes the thrust away from the other one.
-    FaceToFace,
-    /// O arrangement: each takes the thrust towards the other one.
-    BackToBack,
-}
-
-impl Mounting {
-    /// In words.
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::FaceToFace => "face to face",
-            Self::BackToBack => "back to back",
-        }
-    }
-
-    /// That of some bearings.
-    fn of<'a>(places: impl Iterator<Item = &'a SupportPlace>) -> Option<Self> {
-        let (mut left, mut right) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
-        for place in places {
-            let range = if place.axial == Axial::Left {
-                &mut left
-            } else {
-                &mut right
-            };
-            *range = [range[0].min(place.at), range[1].max(place.at)];
-        }
-        if left[1] < right[0] {
-            Some(Self::FaceToFace)
-        } else if right[1] < left[0] {
-            Some(Self::BackToBack)
+/// How some bearings are mounted; `None` if their positions do not tell.
+fn mounting<'a>(places: impl Iterator<Item = &'a SupportPlace>) -> Option<Mounting> {
+    let (mut left, mut right) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
+    for place in places {
+        let range = if place.axial == Axial::Left {
+            &mut left
         } else {
-            None
-        }
+            &mut right
+        };
+        *range = [range[0].min(place.at), range[1].max(place.at)];
+    }
+    if left[1] < right[0] {
+        Some(Mounting::FaceToFace)
+    } else if right[1] < left[0] {
+        Some(Mounting::BackToBack)
+    } else {
+        None
     }
 }
 
 impl BearingPair {
-    /// All pairs.
-    pub(super) fn all(loads: &ShaftLoads, supports: &[SeatedSupport], designs: &[Design]) -> Vec<Self> {
-        let bearing = |paired: &crate::loads::PairedSupport| PairedBearing {
-            support: paired.support,
-            induced: designs[paired.support]
-                .induced_thrust(&supports[paired.support].place)
-                .unwrap_or(InducedThrust {
+    /// All pairs; reports what is wrong with their preloads.
+    pub(super) fn all(loads: &ShaftLoads, preloading: &Preloading<'_>, found: &mut Vec<Diagnostic>) -> Vec<Self> {
+        let Preloading { supports, designs, .. } = preloading;
+        let pairs = loads.pairs().map(|pair| {
+            let bearing = |paired: &crate::loads::PairedSupport| {
+                let own = |basis| InducedThrust {
                     ratio: paired.induced,
-                    basis: InducedBasis::Stated,
-                }),
-            share: paired.share,
-        };
-        let pairs = loads.pairs().map(|pair| Self {
-            member: pair.member,
-            sides: pair.sides.each_ref().map(|side| side.iter().map(bearing).collect()),
-            mounting: Mounting::of(pair.sides.iter().flatten().map(|own| &supports[own.support].place)),
-            spring: pair.spring,
+                    basis,
+                };
+                let design = &designs[paired.support];
+                PairedBearing {
+                    support: paired.support,
+                    induced: match (&pair.stiff, &design.row) {
+                        (Some(_), Some(Ok(row))) => own(InducedBasis::HalfLoaded(row.row.contact_angle)),
+                        _ => design
+                            .induced_thrust(&supports[paired.support].place)
+                            .unwrap_or(own(InducedBasis::Stated)),
+                    },
+                    share: paired.share,
+                }
+            };
+            let mounting = mounting(pair.sides.iter().flatten().map(|own| &supports[own.support].place));
+            Self {
+                member: pair.member,
+                sides: pair.sides.each_ref().map(|side| side.iter().map(bearing).collect()),
+                mounting,
+                spring: pair.spring,
+                preload: PairPreload::new(pair, mounting, preloading, found),
+            }
         });
         pairs.collect()
     }
@@ -147,10 +144,23 @@ impl BearingPair {
             .position(|side| side.iter().any(|bearing| bearing.support == support))
     }
 
-    /// Supports with a cell of notes: with a spring, the first of each side.
+    /// Supports with a cell of notes: with a spring or a preload, the first of each side.
     pub fn noted(&self) -> impl Iterator<Item = usize> {
-        let sides = self.sides.iter().filter(|_| self.spring.is_some());
+        let is_noted = self.spring.is_some() || self.preload.is_some();
+        let sides = self.sides.iter().filter(move |_| is_noted);
         sides.filter_map(|side| side.first()).map(|bearing| bearing.support)
+    }
+
+    /// What its preload may not be as meant.
+    pub(super) fn warnings(&self, preloading: &Preloading<'_>) -> Vec<Diagnostic> {
+        let numbers = self
+            .sides
+            .each_ref()
+            .map(|side| side.first().map_or(0, |own| own.support));
+        let preload = self.preload.iter();
+        preload
+            .flat_map(|preload| preload.warnings(numbers, preloading))
+            .collect()
     }
 
     /// Number of its cells of notes.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::members::Members;
 use super::pairs::{Design, NotCounted};
+use super::preloads;
 use super::seats::{MeshSeat, orbit};
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
 use crate::codes;
@@ -108,7 +109,7 @@ pub fn shaft_loads(
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
 ) -> Option<Arc<ShaftLoads>> {
-    let layout = Layout {
+    let mut layout = Layout {
         members: (0..members.names.len())
             .map(|i| member_layout(i, entry, members, meshes, found))
             .collect(),
@@ -119,6 +120,7 @@ pub fn shaft_loads(
             .collect(),
         meshes: meshes.iter().map(|mesh| mesh_layout(mesh, entry, members)).collect(),
     };
+    preloads::mark(&mut layout, supports, designs, &members.names, found);
     unsupported(entry, members, &layout, found, warnings);
     warnings.extend(
         supports
@@ -253,6 +255,7 @@ fn support_layout(
         radial_stiffness: place.radial_stiffness,
         tilting_stiffness: place.tilting_stiffness,
         induced: design.induced_thrust(place).map(|induced| induced.ratio),
+        preloaded: None,
     }
 }
 

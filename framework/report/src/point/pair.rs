@@ -3,7 +3,7 @@
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::pairs::{PairCard, pair_cards};
+use gearloss_studies::pairs::{PairCard, pair_cards, preload_records};
 
 use crate::text::{Lines, last_key, significant};
 
@@ -23,6 +23,7 @@ pub(super) fn explain_pair(
     let Some(loads) = solution.pair_loads(number, false).filter(|_| solution.has_flow()) else {
         return;
     };
+    let is_preloaded = card.preload.is_some();
     out.line(format!(
         "  axial loads of the {}, {}, before load factors:",
         card.name(),
@@ -30,7 +31,8 @@ pub(super) fn explain_pair(
     ));
     for own in &card.bearings {
         out.line(format!(
-            "    r({}) = {} ({})",
+            "    {}({}) = {} ({})",
+            if is_preloaded { "half loaded from Fa/Fr" } else { "r" },
             last_key(&own.bearing),
             significant(own.induced_thrust),
             own.follows_from
@@ -41,11 +43,44 @@ pub(super) fn explain_pair(
         let ids: Vec<&str> = side.map(|own| last_key(&own.bearing)).collect();
         ids.join("+")
     });
-    for (side, induced) in [&left, &right].into_iter().zip(loads.induced) {
+    for (side, induced) in [&left, &right].into_iter().zip(loads.induced).filter(|_| !is_preloaded) {
         out.line(format!("    S({side}) = r Fr = {} N", significant(induced)));
     }
     out.line(format!("    Ka = {} N, positive towards +x", significant(loads.thrust)));
     let axial = loads.axial.map(significant);
+    if let (Some(preload), Some(at)) = (&card.preload, solution.preload(number)) {
+        let records = preload_records(transmission, solution);
+        let own = records
+            .iter()
+            .find(|record| record.bearings.iter().any(|path| path == bearing));
+        let [shaft, housing] = at.temperatures.map(significant);
+        out.line(format!(
+            "    d at {} degC = {} um, {} N",
+            significant(preload.mounting_temperature_degc),
+            significant(preload.closing_um),
+            significant(preload.force_n)
+        ));
+        out.line(format!(
+            "    d = {} um, {} N, shaft {shaft} degC ({} um/K), housing {housing} degC ({} um/K)",
+            significant(1e6 * at.closing),
+            significant(at.force),
+            significant(preload.per_kelvin_of_shaft_um),
+            significant(preload.per_kelvin_of_housing_um)
+        ));
+        out.line(format!(
+            "    delta({left}) + delta({right}) = d and Fa({right}) - Fa({left}) = Ka by the load distributions:"
+        ));
+        for ((side, axial), closing) in [&left, &right].into_iter().zip(axial).zip(at.closings) {
+            out.line(format!(
+                "    Fa({side}) = {axial} N, delta({side}) = {} um",
+                significant(1e6 * closing)
+            ));
+        }
+        if own.is_some_and(|own| own.lost) {
+            out.line("    the preload is lost: less than half of the rolling elements of a bearing carry");
+        }
+        return;
+    }
     if let Some(spring) = &card.spring {
         let (force, sprung) = (significant(spring.force_n), last_key(&spring.bearing));
         out.line(format!("    Fs = {force} N, spring on {sprung}"));

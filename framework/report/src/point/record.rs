@@ -11,6 +11,7 @@ use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::{PartInfo, Port, Stage, Transmission};
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::pairs::{PreloadRecord, preload_records};
 use gearloss_studies::points::{
     Derivatives, Note, PreparedPoint, SelfLocking, SolvedPoint, Sums, WeakPoint, evidence, sums,
 };
@@ -56,6 +57,9 @@ pub struct PointRecord {
     stages: Vec<Stage>,
     /// Loads of all supports.
     supports: Vec<SupportRecord>,
+    /// Preloads of pairs of bearings; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    preloads: Vec<PreloadRecord>,
     /// Components with losses.
     parts: Vec<PartRecord>,
     /// Crates whose mechanisms and models are linked into the program.
@@ -137,7 +141,8 @@ struct SupportRecord {
     radial_n: Option<f64>,
     /// Axial load; null if no flow was found. [N]
     axial_n: Option<f64>,
-    /// The part of it that induced thrust adds; null outside of pairs of bearings, for a pair with a spring, and if no flow was found. [N]
+    /// The part of it that induced thrust adds; null outside of pairs of bearings, for a pair with a spring or a preload, and if no flow was
+    /// found. [N]
     induced_n: Option<f64>,
     /// Tilting moment; null if no flow was found. [Nm]
     tilting_nm: Option<f64>,
@@ -239,6 +244,7 @@ impl PointRecord {
             supports: supports
                 .map(|(i, path)| SupportRecord::new(solution, i, path))
                 .collect(),
+            preloads: preload_records(transmission, solution),
             parts: parts
                 .map(|(part, loss)| PartRecord::new(transmission, solution, part, &loss))
                 .collect(),

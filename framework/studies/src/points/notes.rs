@@ -11,7 +11,7 @@ use gearloss_framework::loads::LEAST_STATIC_SAFETY;
 use gearloss_framework::loss::{Extent, nanowatts};
 use gearloss_framework::registry::{Evidence, Instance};
 use gearloss_framework::resolve::{ESTIMATED, Resolved, ValueSource, lookup};
-use gearloss_framework::transmission::{BearingPair, Transmission};
+use gearloss_framework::transmission::{BearingPair, BodyTemperature, Transmission};
 
 /// Name of the note of a bearing's static safety.
 pub const STATIC_SAFETY: &str = "S0 = C0/P0";
@@ -153,24 +153,25 @@ fn notes_of(transmission: &Transmission, seen: &[Extent], share: &dyn Fn(usize) 
             }),
     );
     let first = transmission.pair_cells();
-    let sprung = transmission
-        .pairs()
-        .iter()
-        .filter_map(|pair| Some((pair, pair.spring?)));
-    let noted = sprung.flat_map(|(pair, spring)| pair.noted().map(move |support| (support, support == spring.support)));
+    let noted = transmission.pairs().iter().flat_map(|pair| {
+        pair.noted().map(move |support| {
+            let words = match pair.spring {
+                Some(spring) if spring.support == support => &ON_SPRING,
+                Some(_) => &AGAINST_SPRING,
+                None => &PRELOADED,
+            };
+            (support, words)
+        })
+    });
     let noted = noted.zip(&seen[first..]).zip(first..);
     notes.extend(
         noted
             .filter(|((_, seen), _)| seen.outside > 0)
-            .map(|(((support, on_spring), seen), cell)| Note {
+            .map(|(((support, words), seen), cell)| Note {
                 path: transmission.supports()[support].clone(),
-                name: if on_spring { "Fs - r Fr" } else { "Fs + Ka - r Fr" },
-                meaning: if on_spring {
-                    "spring force less the thrust that the radial load induces"
-                } else {
-                    "axial load less the thrust that the radial load induces"
-                },
-                unit: "N",
+                name: words.name,
+                meaning: words.meaning,
+                unit: words.unit,
                 least: seen.least,
                 greatest: seen.greatest,
                 points: seen.seen,
@@ -178,13 +179,41 @@ fn notes_of(transmission: &Transmission, seen: &[Extent], share: &dyn Fn(usize) 
                 range: Some(Stated {
                     least: 0.0,
                     greatest: f64::INFINITY,
-                    origin: "pair with a spring: below, less than half of the rolling elements carry",
+                    origin: words.origin,
                 }),
                 loss_share: share(cell),
             }),
     );
     notes
 }
+
+/// How a note on a bearing of a pair reads.
+struct PairWords {
+    name: &'static str,
+    meaning: &'static str,
+    unit: &'static str,
+    origin: &'static str,
+}
+
+const ON_SPRING: PairWords = PairWords {
+    name: "Fs - r Fr",
+    meaning: "spring force less the thrust that the radial load induces",
+    unit: "N",
+    origin: "pair with a spring: below, less than half of the rolling elements carry",
+};
+
+const AGAINST_SPRING: PairWords = PairWords {
+    name: "Fs + Ka - r Fr",
+    meaning: "axial load less the thrust that the radial load induces",
+    ..ON_SPRING
+};
+
+const PRELOADED: PairWords = PairWords {
+    name: "closing",
+    meaning: "distance by which the bearing is closed under its loads",
+    unit: "um",
+    origin: "pair with a preload or end play: below, less than half of the rolling elements carry, none without radial load",
+};
 
 fn note(
     instance: &Instance,
@@ -272,6 +301,29 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
         if let Some((grade, because)) = bearing.induced.basis.evidence() {
             let what = format!("induced thrust by {}", bearing.induced.basis.words());
             add(what, grade, because, &transmission.supports()[bearing.support]);
+        }
+    }
+    for pair in transmission.pairs() {
+        let Some(preload) = &pair.preload else { continue };
+        let path = &transmission.supports()[preload.support];
+        add(
+            "stiffness of preloaded bearings".to_owned(),
+            if preload.is_estimated {
+                Evidence::Assumed
+            } else {
+                Evidence::Derived
+            },
+            if preload.is_estimated {
+                "the internal geometry is estimated"
+            } else {
+                "load integrals with the nominal contact angle, straight rollers, rigid rings, shaft and housing"
+            },
+            path,
+        );
+        let is_oil = |body: &BodyTemperature| matches!(body, BodyTemperature::AboveOil { .. });
+        if preload.temperatures.iter().any(is_oil) && preload.per_kelvin.iter().sum::<f64>() != 0.0 {
+            let because = "shaft or housing at the temperature of the oil";
+            add("temperatures of a preload".to_owned(), Evidence::Assumed, because, path);
         }
     }
     let mut seen = HashSet::new();

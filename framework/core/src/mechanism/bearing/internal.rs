@@ -13,7 +13,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{BearingKind, BearingPart};
-use crate::rolling::{BallGeometry, Balls, Material, Profile, RollerGeometry, Rollers};
+use crate::loads::AngularRow;
+use crate::rolling::{BallGeometry, Balls, Contact, ManyElements, Material, Profile, RollerGeometry, Rollers};
 
 /// Internal geometry of a bearing with one row of balls or rollers; what is omitted is estimated from the boundary dimensions. For the
 /// model `contact` and for ratings from the load distribution.
@@ -237,6 +238,53 @@ impl BearingPart {
             row,
             is_estimated,
             is_clearance_assumed,
+        })
+    }
+
+    /// The row of an angular contact ball or tapered roller bearing as very many elements with the nominal contact angle, rollers straight.
+    ///
+    /// # Errors
+    /// If it is another kind, or as [`Self::rolling_elements`].
+    pub fn angular_row(&self) -> Result<AngularRow, Cow<'static, str>> {
+        if !self.kind.has_contact_angle() {
+            return Err("only single-row angular contact ball and tapered roller bearings have a preload".into());
+        }
+        let elements = self.rolling_elements()?;
+        let (number, stiffness, contact_angle, pitch_diameter, diameter, contact) = match &elements.row {
+            ElementRow::Balls(balls) => {
+                let own = balls.geometry();
+                let (angle, pitch) = (own.contact_angle, own.pitch_diameter);
+                (
+                    own.number,
+                    balls.stiffness(),
+                    angle,
+                    pitch,
+                    own.diameter,
+                    Contact::Point,
+                )
+            }
+            ElementRow::Rollers(rollers) => {
+                let own = rollers.geometry();
+                let (angle, pitch) = (own.contact_angle, own.pitch_diameter);
+                (
+                    own.number,
+                    rollers.stiffness(),
+                    angle,
+                    pitch,
+                    own.diameter,
+                    Contact::Line,
+                )
+            }
+        };
+        Ok(AngularRow {
+            row: ManyElements {
+                number: number as f64,
+                stiffness,
+                contact_angle,
+                contact,
+            },
+            outer_diameter: pitch_diameter + diameter * contact_angle.cos(),
+            is_estimated: elements.is_estimated,
         })
     }
 
