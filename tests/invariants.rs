@@ -160,7 +160,7 @@ impl Plan {
             "lubricants: { sump: { kind: mineral, viscosity: { kv40: 68 mm2/s, kv100: 8.5 mm2/s }, density: { at: 15 degC, value: 880 kg/m3 } } }"
                 .to_owned(),
             format!(
-                "housing: {{ oil: {{ lubricant: sump, volume: 2 l, running_level: {} mm, measured_from: S{} }}, \
+                "housing: {{ oil: {{ lubricant: sump, volume: 2 l, level: {} mm, measured_from: S{} }}, \
                  section: {{ area: 600 cm2, perimeter: 100 cm }}, clearance: {{ radial: 10 mm, axial: 12 mm }} }}",
                 self.level,
                 self.stages.len()

@@ -99,7 +99,7 @@ fn zero_torque_is_dragged_and_preload_still_loads_the_bearings() {
 fn a_dry_housing_has_no_churning() {
     let language = language();
     for set in [None, Some("joint")] {
-        let dry = two_speed_with(&language, set, &[("housing.oil.running_level", json!("-2000 mm"))]);
+        let dry = two_speed_with(&language, set, &[("housing.oil.level", json!("-2000 mm"))]);
         let seen = solve_point(&dry, 8000.0, 10.0);
         let churning: f64 = seen
             .parts

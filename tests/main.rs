@@ -47,6 +47,7 @@ mod modules;
 mod mutated;
 mod network;
 mod new;
+mod oil;
 mod oils;
 mod optimise;
 mod peers;

@@ -93,7 +93,7 @@ fn choice(churning: &str, overrides: &[(&str, f64)]) -> Choice {
     });
     let charge = [
         ("housing.oil.volume".to_owned(), json!(3.0)),
-        ("housing.oil.running_level".to_owned(), json!(-30.0)),
+        ("housing.oil.level".to_owned(), json!(-30.0)),
     ];
     let given = overrides.iter().map(|(path, value)| ((*path).to_owned(), json!(value)));
     Choice {

@@ -176,8 +176,10 @@ pub struct State<'a, R = f64> {
     pub oils: &'a [Oil<R>],
     /// Temperatures of the nodes, or one for all nodes. \[degC\]
     pub temperatures: &'a [R],
-    /// Oil height above the datum; minus infinity without a sump. \[m\]
+    /// Oil height above the datum while rotating; minus infinity without a sump. \[m\]
     pub surface: R,
+    /// The same at rest, for churning laws. \[m\]
+    pub rest: R,
     /// Loads of the supports.
     pub loads: &'a [SupportLoad<R>],
     /// Number of loss model evaluations.
@@ -213,7 +215,13 @@ impl<'a, R: Points> State<'a, R> {
     /// Oil height above the axis at a spot.
     #[inline(always)]
     pub fn level(&self, spot: &Spot) -> Height<R> {
-        match spot.level {
+        self.height(spot.level, self.surface)
+    }
+
+    /// Height of a surface above an axis.
+    #[inline(always)]
+    pub(crate) fn height(&self, level: Level, surface: R) -> Height<R> {
+        match level {
             Level::Dry => Height {
                 level: R::constant(f64::NEG_INFINITY),
                 orbit: 0.0,
@@ -223,7 +231,7 @@ impl<'a, R: Points> State<'a, R> {
                 orbit: 0.0,
             },
             Level::Sump { height, slope, orbit } => Height {
-                level: (self.surface - height) * slope,
+                level: (surface - height) * slope,
                 orbit,
             },
         }

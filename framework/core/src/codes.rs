@@ -65,6 +65,9 @@ gearloss_document::codes! {
     DRAG = "E0311", "losses would be counted twice",
         cause: "Two models cover the same loss, or a drag model is chosen where it is not evaluated.",
         help: "Switch one of them off with `none`.";
+    OIL_SPACE = "E0314", "impossible oil space",
+        cause: "The inside of the housing is not a polygon, gears reach out of it, or it holds less oil than is filled.",
+        help: "Correct `housing.inside` or the volume of the oil.";
     THERMAL = "E0401", "invalid thermal description",
         cause: "The balance has no heat path, or values of the thermal section contradict each other.",
         help: "Correct the section `thermal`.";
@@ -103,4 +106,8 @@ gearloss_document::codes! {
     PRELOAD = "W0309", "preload may not be as meant",
         cause: "The expansion of the housing around preloaded bearings is not stated, or the preload alone exceeds the static rating of a bearing.",
         help: "State `housing: { material: ... }` in `preload`, or correct the preload.";
+    OIL_LEVEL = "W0314", "doubtful oil level",
+        cause: "Level and volume of the oil contradict each other, the level at rest is not known, the oil covers a shaft seal, or it reaches a bearing \
+                neither at its level nor by splashing.",
+        help: "Correct the level, the volume or the inside of the housing, or state how the part gets its oil.";
 }

@@ -18,7 +18,10 @@ use serde_json::Value;
 
 pub use gearloss_document::Ordered;
 pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
-pub use housing::{HeatInto, HousingEntry, LevelOver, OilEntry, OutsideEntry, Running, Thermal, ThermalMode};
+pub use housing::{
+    HeatInto, HousingEntry, InsideEntry, InsideSection, LevelOver, OilEntry, OutsideEntry, Running, RunningWord,
+    Thermal, ThermalMode,
+};
 pub use lubricant::{Consistency, GreaseEntry, LubricantEntry};
 pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
 pub use plausibility::PlausibilityEntry;

@@ -3,6 +3,7 @@
 mod batch;
 mod derive;
 mod grip;
+mod oil_level;
 mod ratings;
 mod readings;
 mod scratch;
@@ -11,6 +12,7 @@ mod solution;
 
 pub use batch::{Batch, BatchScratch, Block};
 pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
+pub use oil_level::{LevelEstimate, LevelFrom, OilLevels};
 pub use ratings::{ComponentRating, Ratings};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
@@ -27,6 +29,7 @@ use crate::mechanism::Answers;
 use crate::mechanism::gear_drag::{GearDrag, GearDragAt};
 use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt};
 use crate::real::{Mask as _, Points, Real};
+use crate::sump::CAPTURE;
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Component, Sharing, Transmission};
 
@@ -189,7 +192,9 @@ impl Transmission {
         let c = &mut m.conditions;
         case.motion.speeds(&s.prescribed, &mut c.speeds);
         self.oils.write_states(&c.temperatures, &mut c.oils);
-        c.surface = self.oils.surface(&c.speeds);
+        c.rest = self.oils.at_rest(&c.speeds, &c.oils);
+        // Until the drag of the gears is known, no oil is lifted.
+        c.surface = self.oils.running(&c.speeds, c.rest);
         self.write_closings(&c.temperatures, &c.oils, &mut m.closings);
         c.forget();
         s.called += c.calls.replace(0);
@@ -209,6 +214,23 @@ impl Transmission {
         let mut live = c.live;
         let (state, book) = c.open(noting != Noting::Muted);
         let book = Notebook { starts, ..book };
+        for (i, loss) in m.drag_losses.iter_mut().enumerate() {
+            if !self.drags[i].model.off {
+                *loss = self.drag(i, &state, &book, &mut live);
+            }
+        }
+        if let Some((sump, place)) = self.oils.estimated().filter(|(sump, _)| sump.read) {
+            sump.lift(&self.drags, &m.drag_losses, &state, &mut m.lifted);
+            let running = sump.running(c.rest, &c.oils, &m.lifted);
+            let level = if place == 0.0 {
+                running.film_level(CAPTURE[1])
+            } else {
+                running.band().at(place)
+            };
+            c.surface = level;
+        }
+        let (state, book) = c.open(noting != Noting::Muted);
+        let book = Notebook { starts, ..book };
         for (i, component) in self.components.iter().enumerate() {
             if !component.loaded && !component.off {
                 let answer = component_loss(component, &state, &book, &mut live);
@@ -217,9 +239,8 @@ impl Transmission {
                 m.component_losses[i] = answer;
             }
         }
-        for (i, loss) in m.drag_losses.iter_mut().enumerate() {
+        for (i, loss) in m.drag_losses.iter().enumerate() {
             if !self.drags[i].model.off {
-                *loss = self.drag(i, &state, &book, &mut live);
                 self.brake_gears(i, loss, state.speeds, drags);
             }
         }
@@ -471,9 +492,7 @@ impl Transmission {
         let seat = &drag.seat;
         let oil = &state.oils[drag.oil as usize];
         let speed = seat.members.map(|m| state.speeds[m]);
-        let level = seat
-            .levels
-            .map(|level| state.level(&crate::attach::Spot { oil: drag.oil, level }));
+        let level = seat.levels.map(|level| state.level_at_rest(level));
         let towards = |i: usize| {
             let turns = |point: usize| {
                 let own = speed[i].at_point(point);

@@ -90,6 +90,7 @@ pub mod lubricant;
 pub mod motor;
 pub mod real;
 pub mod rolling;
+pub mod sump;
 
 // The solver: speeds, torques, bearing loads, points, temperatures.
 pub mod evaluate;

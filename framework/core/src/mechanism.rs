@@ -204,6 +204,10 @@ pub trait Component: Mechanism<Answer = Loss> {
     fn angular_row(_part: &Self::Part) -> Result<AngularRow, Cow<'static, str>> {
         Err("it is no rolling bearing".into())
     }
+    /// Radius of the lowest point over which the oil height at the place of a part matters to its context; `None` if it does not. \[m\]
+    fn lowest(_part: &Self::Part) -> Option<f64> {
+        Some(f64::INFINITY)
+    }
     /// Name of a part in messages about it, such as its designation.
     fn name(_part: &Self::Part) -> String {
         Self::KEY.to_owned()

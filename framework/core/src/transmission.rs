@@ -6,6 +6,7 @@ mod drag_models;
 mod drags;
 mod gearing;
 mod grease;
+mod inside;
 mod members;
 mod nodes;
 mod oils;
@@ -17,6 +18,7 @@ mod seats;
 mod stage;
 mod states;
 mod statics;
+mod sump;
 mod torque_order;
 
 use std::sync::Arc;
@@ -25,13 +27,14 @@ pub use crate::loads::Mounting;
 pub use case::Case;
 pub(crate) use drags::DragSeat;
 pub use nodes::{AMBIENT, HeatPath};
-pub use oils::{Oils, Surface};
+pub use oils::{AtRest, Oils, Surface};
 pub use pairs::{BearingPair, PairedBearing};
 pub use preloads::{BodyTemperature, PairPreload, PreloadBy};
 pub use seats::GearSeat;
 pub(crate) use seats::MeshSeat;
 pub use stage::Stage;
 pub use states::GearState;
+pub use sump::Sump;
 pub use torque_order::{TorqueBlock, TorqueOrder};
 
 pub(crate) use case::Cases;
@@ -117,6 +120,8 @@ pub(crate) struct DragModel {
     pub oil: u16,
     /// Factor on the loss of the model.
     pub loss_factor: f64,
+    /// True if the model covers churning.
+    pub churning: bool,
 }
 
 /// A component with its number of copies.
@@ -308,13 +313,17 @@ impl Transmission {
     pub fn housing(&self) -> &Housing {
         &self.housing
     }
-    /// Volume of the oil in the housing, if it is stated, and its mass at the temperature of [`Self::oil_temperature`]. \[m3 and kg\]
+    /// Volume of the oil in the housing, if it is known, and its mass at the temperature of [`Self::oil_temperature`]. \[m3 and kg\]
     pub fn oil_fill(&self) -> Option<(f64, f64)> {
         self.oils.fill(self.oil_temperature)
     }
     /// Density and specific heat of the sump at a temperature in degC. \[kg/m3 and J/(kg K)\]
     pub(crate) fn sump_heat(&self, temperature: f64) -> (f64, f64) {
         self.oils.heat(temperature)
+    }
+    /// The sump, if the oil space and a level are known.
+    pub fn oil_space(&self) -> Option<&Sump> {
+        self.oils.sump.as_ref()
     }
     /// The thermal network.
     pub fn network(&self) -> Option<&Network> {

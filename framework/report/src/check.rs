@@ -4,7 +4,7 @@ mod record;
 
 use gearloss_framework::document::{Diagnostic, visible_json};
 use gearloss_framework::language::Language;
-use gearloss_studies::checked::{CheckedGearbox, out_of_bounds, overloaded};
+use gearloss_studies::checked::{CheckedGearbox, dry_bearings, out_of_bounds, overloaded};
 
 pub use record::{CheckRecord, FileRecord};
 
@@ -81,6 +81,9 @@ pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
             "  at the rated torque: {}: {sentence} (ratings.{})\n",
             found.component, found.rating
         ));
+    }
+    for found in dry_bearings(checked) {
+        text.push_str(&format!("  {}: {}\n", found.path, found.message));
     }
     for line in remarks(resolved, &checked.changed, &checked.evidence) {
         text.push_str(&format!("  {line}\n"));

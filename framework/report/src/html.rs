@@ -179,6 +179,8 @@ pub struct GearboxPage {
     pub source: String,
     /// Drawing, as SVG.
     pub drawing: String,
+    /// Cross-section of the housing with its oil at the point, as SVG; empty if the oil space is not known.
+    pub oil: String,
     /// Tables of geometry and kinematics.
     pub tables: Vec<PageTable>,
     /// An operating point as text; empty if there is none.

@@ -4,6 +4,7 @@ mod derivatives;
 mod explain;
 mod explained;
 mod network;
+mod oil;
 mod pair;
 mod ratings;
 mod record;
@@ -23,6 +24,7 @@ pub use derivatives::derivatives_text;
 use explain::{explain_heat_path, explain_part};
 pub use explained::Explained;
 use network::network_blocks;
+use oil::oil_level_text;
 use ratings::explain_ratings;
 pub use ratings::{rating_lines, ratings_blocks, ratings_text};
 pub use record::PointRecord;
@@ -186,6 +188,7 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
     if let Some(locking) = &solved.locking {
         blocks.text(&locking_text(locking));
     }
+    blocks.text(&oil_level_text(solution.oil_levels()));
     blocks.append(temperature_blocks(transmission, found));
     blocks.text(&outside_ranges(solved));
     blocks

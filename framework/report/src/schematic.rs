@@ -4,6 +4,7 @@ mod along;
 mod axes;
 mod canvas;
 mod draw;
+mod oil;
 mod things;
 
 use serde_json::Value;
@@ -12,6 +13,7 @@ use along::{Along, along};
 use axes::{Axes, axes};
 use canvas::Canvas;
 use gearloss_framework::transmission::Transmission;
+pub use oil::oil_section;
 use things::Things;
 
 /// Maximum width of gears and bearings. \[px\]

@@ -10,8 +10,11 @@ use gearloss_framework::files::SharedSource;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
+use gearloss_framework::mechanism::bearing::Bearing;
+use gearloss_framework::mechanism::{Component as _, Mechanism as _};
 use gearloss_framework::registry::Evidence;
 use gearloss_framework::resolve::{Choice, Resolved};
+use gearloss_framework::sump::LEAST_SPLASH;
 use gearloss_framework::transmission::Transmission;
 
 use crate::analyses::numbers::significant;
@@ -87,8 +90,11 @@ impl CheckedGearbox {
                     .code(codes::RATED_OUTSIDE),
             )
         });
+        let dry = dry_bearings(self)
+            .into_iter()
+            .map(|warning| self.gearbox.places.place(warning));
         let built = self.transmission.warnings.iter().cloned();
-        built.chain(overloaded).chain(outside).collect()
+        built.chain(overloaded).chain(outside).chain(dry).collect()
     }
 
     /// The lowest grade of evidence.
@@ -129,6 +135,52 @@ pub fn overloaded(t: &Transmission) -> Vec<Note> {
     }
     let safety = |note: &Note| note.name == STATIC_SAFETY;
     notes(t, &seen).into_iter().filter(safety).collect()
+}
+
+/// Warnings for bearings in the oil of the housing that no oil reaches at the rated speed in any gear: the level while rotating is below
+/// them, and no gear in the oil is fast enough to throw oil at them.
+pub fn dry_bearings(checked: &CheckedGearbox) -> Vec<Diagnostic> {
+    let t = &checked.transmission;
+    let bearings = &checked.resolved.value[Bearing::SECTION];
+    let sump = &checked.resolved.value["housing"]["oil"]["lubricant"];
+    let from_sump = |path: &str| {
+        let entry = &bearings[path.split('.').nth(1).unwrap_or_default()];
+        let oil = &entry["lubricant"];
+        entry["oil_height"].is_null() && (oil.is_null() || oil == sump)
+    };
+    let parts = t.parts().iter().enumerate();
+    let parts = parts.filter(|(_, part)| part.mechanism == Bearing::KEY && from_sump(&part.path));
+    let mut asked: Vec<(usize, &str)> = parts.map(|(i, part)| (i, part.path.as_str())).collect();
+    let mut last = None;
+    at_the_rating(t, |solution| {
+        let found = solution.oil_levels();
+        let slow = found.and_then(|levels| Some((levels.running, levels.estimate?.rim?)));
+        match slow.filter(|(_, rim)| *rim < LEAST_SPLASH) {
+            Some(found) => {
+                last = Some(found);
+                asked.retain(|(i, _)| {
+                    let readings = solution.readings(*i);
+                    readings
+                        .iter()
+                        .any(|reading| reading.name == "oil_height" && reading.value == 0.0)
+                });
+            }
+            None => asked.clear(),
+        }
+    });
+    let Some((level, rim)) = last else { return Vec::new() };
+    let warning = |(_, path): (usize, &str)| {
+        let message = format!(
+            "no oil reaches the bearing at the rated speed: the level is {} mm, and the fastest gear in the oil has {} m/s of the {LEAST_SPLASH} m/s \
+             from which gears splash",
+            significant(level * 1e3),
+            significant(rim)
+        );
+        Diagnostic::warning(path, message)
+            .help("raise the level, or state `oil_height` if the bearing gets its oil in another way")
+            .code(codes::OIL_LEVEL)
+    };
+    asked.into_iter().map(warning).collect()
 }
 
 /// A quantity of a rating that is outside its bound at the rated torque and speed.

@@ -3,7 +3,7 @@
 //! Source: Changenet, Velex: A model for the prediction of churning losses in geared transmissions, J. Mech. Des. 129 (2007)
 //! 128-133: T = 1/2 rho w^2 R^3 S_m C_m with C_m = 1.366 (h/D)^0.45 (V/D^3)^0.1 Fr^-0.6 Re^-0.21 below Re = w R b/nu = 6000 and
 //! 3.644 (h/D)^0.1 (V/D^3)^-0.35 Fr^-0.88 (b/D)^0.85 above 9000, linear in between.
-//! For narrow gears at low speed it is up to four times `changenet_2011`, because only Re selects the regime.
+//! Immersion depth and volume are those at rest, as set before the tests (quoted from memory). For narrow gears at low speed it is up to four times `changenet_2011`, because only Re selects the regime.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
@@ -75,7 +75,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Changenet, Diagnostic> 
     let Some(volume) = part.oil_volume else {
         return Err(cx
             .error("changenet_2007 requires the oil volume")
-            .help("add `housing: { oil: { volume: 1.2 l } }` with your value"));
+            .help("add `housing: { oil: { volume: 1.2 l } }` with your value, or `housing.inside`, from which the volume below the level follows"));
     };
     Ok(Changenet {
         coefficients: params.coefficients,

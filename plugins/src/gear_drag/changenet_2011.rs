@@ -2,7 +2,8 @@
 //!
 //! Source: Changenet, Leprince, Ville, Velex: A note on flow regimes and churning loss modeling, J. Mech. Des. 133 (2011)
 //! 121009: T = 1/2 rho w^2 R^3 S_m C_m; C_m by Reynolds number w R b/nu (4000) and speed parameter w^2 (R b m_n)^(1/3)
-//! (750 and 1250 m/s2, linear in between). Immersion depth at the reference circle; wetted surface of faces, rim and teeth. Single
+//! (750 and 1250 m/s2, linear in between). Immersion depth at the reference circle and oil volume at rest, as set before the tests
+//! (quoted from memory): the exponents of speed contain how the level fell in them. Wetted surface of faces, rim and teeth. Single
 //! gear in a spacious case, automotive sizes (R 40 to 110 mm, module 1.5 to 5 mm, b 14 to 40 mm, to about 7000 rpm). A pair whose
 //! gears raise the oil towards the mesh loses more; no reliable formula is public, so the user states the increase `swell`, which
 //! applies if the gear's lowest point moves towards its mate.
@@ -109,7 +110,7 @@ fn prepare(params: Changenet, cx: &mut Build<'_>) -> Result<Churning, Diagnostic
     let Some(volume) = part.oil_volume else {
         return Err(cx
             .error("changenet_2011 requires the oil volume")
-            .help("add `housing: { oil: { volume: 1.2 l } }` with your value"));
+            .help("add `housing: { oil: { volume: 1.2 l } }` with your value, or `housing.inside`, from which the volume below the level follows"));
     };
     Ok(Churning::new(params.coefficients, params.swell, &part.gear, volume))
 }
@@ -269,6 +270,7 @@ mod tests {
             gear,
             mate: None,
             oil_volume: Some(1.3e-3),
+            fill: None,
             section_area: None,
             section_perimeter: None,
             radial_clearance: None,
@@ -322,6 +324,7 @@ mod tests {
         let files = Files::default();
         let part = Arc::new(DragPart {
             oil_volume: None,
+            fill: None,
             ..wheel()
         });
         let value = serde_json::json!({ "type": "changenet_2011", "swell": 0.0 });

@@ -2,7 +2,7 @@
 //!
 //! The common form of the laws by dimensional analysis: T = 1/2 rho w^2 R^3 S_m C_m, with R the radius of the reference circle and S_m
 //! the wetted surface of faces, rim and teeth. C_m is a formula of Re = w R b/nu, Fr = w^2 R/g, and the ratios h/D, V/D^3 and
-//! b/D, named `re`, `fr`, `h`, `v` and `b`.
+//! b/D, named `re`, `fr`, `h`, `v` and `b`; depth h and volume V at rest.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::formula::Formula;

@@ -4,7 +4,8 @@
 //! C = 0.38 rho nu^0.05 R_a^8.51 R_p^-5.90 b^0.20 d_r^0.08 d_x^0.34 h_eff^1.10 w^0.81 g^0.57 in N m, SI throughout, with
 //! h_eff = h_0 (phi + (1 - phi) tanh(0.2 + Re^0.4/Fr)), Re = w R_p^2/nu, Fr = w^2 R_p/g, g = 9.8. Dimensionally exact.
 //! The exponents of R_a and R_p make it sensitive to tooth height: a change of one percent in R_a/R_p changes the torque by eight
-//! percent, so the radii must be exact. Immersion depth at the reference circle. Single gear; the source does not state whether d_x
+//! percent, so the radii must be exact. Immersion depth at the reference circle, at rest: h_0 is printed as the initial depth, and h_eff
+//! contains how the level falls. Single gear; the source does not state whether d_x
 //! is the gap of one side or both; one side is assumed.
 
 use gearloss_framework::document::Diagnostic;
@@ -59,9 +60,9 @@ coefficients! {
 /// Churning of one gear in a cylindrical case, from inertia run-down tests up to 90 m/s.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Share of the case filled with oil at standstill. [-]
+    /// Share of the case filled with oil at standstill; default: that of the oil space of the housing. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub fill: f64,
+    pub fill: Option<f64>,
     /// Relative increase of the torque if the gear's lowest point moves towards its mate: 0 to 0.5. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 5.0))]
@@ -86,9 +87,14 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Shore, Diagnostic> {
             .error("shore requires the gaps between gear and wall")
             .help("add `housing: { clearance: { radial: 8 mm, axial: 12 mm } }` with your values"));
     };
+    let Some(fill) = params.fill.or(part.fill) else {
+        return Err(cx
+            .error("shore requires the filled share of the case")
+            .help("add `fill: 0.3` with your value, or an oil level with `housing.inside`"));
+    };
     Ok(Shore {
         coefficients: params.coefficients,
-        fill: params.fill,
+        fill,
         swell: params.swell,
         radial,
         axial,
@@ -155,6 +161,7 @@ register!(GearDrag, "shore", Params,
     example: "{ type: shore, fill: 0.35 }",
     evidence: [
         formula(Evidence::OneSource, "one article; dimensionally exact"),
+        default_of("fill", Evidence::Assumed, "a spacious housing; the source has a cylinder around one gear"),
         default_of("swell", Evidence::Assumed, "no public formula"),
     ],
     checks: [

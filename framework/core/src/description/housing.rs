@@ -16,6 +16,8 @@ pub struct HousingEntry {
     pub section: Option<CaseSection>,
     /// Gap between the gears and the wall.
     pub clearance: Option<WallClearance>,
+    /// The oil space inside the housing, from which level and volume of the oil follow from each other.
+    pub inside: Option<InsideEntry>,
     /// The outside of the housing, for heat dissipation models.
     pub outside: Option<OutsideEntry>,
     /// Road grade: rotation of the housing about y, nose up positive. [deg]
@@ -34,18 +36,34 @@ pub struct OilEntry {
     /// Oil, one of `lubricants`.
     #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: String,
-    /// Volume. [l]
+    /// Volume as filled; default: that of the level in the oil space. [l]
     #[schemars(range(min = 0.001, max = 1e4))]
     pub volume: Option<f64>,
-    /// Oil height above the datum at standstill; default: no part is immersed. [mm]
+    /// Temperature at which the volume was filled. [degC]
+    #[serde(default = "twenty")]
+    #[schemars(range(min = -60.0, max = 150.0))]
+    pub fill_temperature: f64,
+    /// Part of the volume that is in pipes, cooler and jackets while the pump runs. [l]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 1e4))]
+    pub circuit_volume: f64,
+    /// Oil height above the datum at standstill; default: that of the volume in the oil space. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
+    /// True if all oil is collected in a tank: no part is immersed.
+    #[serde(default)]
+    pub dry_sump: bool,
     /// Datum: the axis of this shaft at x = 0; default: the origin of the housing.
     #[schemars(extend("x-refers-to" = "shafts"))]
     pub measured_from: Option<String>,
-    /// Oil height while rotating: a height, or heights over the speed of a shaft.
+    /// Oil height while rotating, if it was measured: a height, or heights over the speed of a shaft; `at_rest` if gears do not lower it.
+    /// Default: estimated from the oil that the gears lift. Churning laws use the level at rest.
     pub running_level: Option<Running>,
-    /// Offset added to either level. [mm]
+    /// Place in the band of an estimated running level: -1 the lowest, 0 the usual, 1 the highest estimate. [-]
+    #[serde(default)]
+    #[schemars(range(min = -1.0, max = 1.0))]
+    pub running_band: f64,
+    /// Offset added to the levels at rest and while rotating. [mm]
     #[serde(default)]
     #[schemars(range(min = -1e3, max = 1e3))]
     pub level_offset: f64,
@@ -55,10 +73,20 @@ pub struct OilEntry {
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Running {
+    /// As at rest.
+    Word(RunningWord),
     /// One height above the datum. [mm]
     Height(#[schemars(range(min = -1e4, max = 1e4))] f64),
     /// Heights over the speed of a shaft.
     Over(LevelOver),
+}
+
+/// Word for the oil height while rotating.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum RunningWord {
+    /// That at rest.
+    AtRest,
 }
 
 /// Oil heights over the speed of a shaft, linear in between, constant beyond the ends.
@@ -95,6 +123,41 @@ pub struct WallClearance {
     /// Axial gap. [mm]
     #[schemars(range(min = 0.1, max = 1e4))]
     pub axial: f64,
+}
+
+/// The oil space inside the housing. Without sections it is the convex hull of the tip circles with the radial gap of `clearance` around
+/// them, a housing without ribs and without a sump below the gears.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+pub struct InsideEntry {
+    /// Inside width of the hull, about the middle of the gears; default: their extent plus the axial gap of `clearance` on both sides. [mm]
+    #[schemars(range(min = 1.0, max = 1e5))]
+    pub width: Option<f64>,
+    /// Sections of the space by name, from the drawing, joined below the level; they replace the hull.
+    #[serde(default, skip_serializing_if = "Ordered::is_empty")]
+    pub sections: Ordered<InsideSection>,
+    /// Inside wall above the level on which thrown oil runs down; default: that of the space. [cm2]
+    #[schemars(range(min = 0.1, max = 1e8))]
+    pub wall_area: Option<f64>,
+    /// Horizontal length of that wall; default: the circumference of the space. [mm]
+    #[schemars(range(min = 1.0, max = 1e6))]
+    pub wall_length: Option<f64>,
+}
+
+/// A section of the oil space: a polygon perpendicular to the shafts, and its range along them.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct InsideSection {
+    /// Beginning along the shafts. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub from: f64,
+    /// End along the shafts. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub to: f64,
+    /// Corners of the inside wall in order: y of each, in the housing. [mm]
+    #[schemars(inner(range(min = -1e5, max = 1e5)), length(min = 3))]
+    pub y: Vec<f64>,
+    /// z of each corner, upwards. [mm]
+    #[schemars(inner(range(min = -1e5, max = 1e5)), length(min = 3))]
+    pub z: Vec<f64>,
 }
 
 /// The outside of the housing, where it dissipates heat to the air.

@@ -254,6 +254,7 @@ impl Scratch<Lane> {
             *own = Oil::of_properties(oil.properties().map(Lane::constant));
         }
         c.surface = Lane::constant(common.surface);
+        c.rest = Lane::constant(common.rest);
         c.common = true;
         c.forget();
         spread(&mut own.closings, &from.closings);

@@ -8,7 +8,8 @@ use crate::flow::{Balance, Status, Work};
 use crate::loads::SupportLoad;
 use crate::loss::{Extent, Kept, Loss, Notebook, Seen, Trace, Undefined, nanowatts};
 use crate::real::{Mask as _, Points};
-use crate::transmission::{Case, Transmission};
+use crate::sump::Lifted;
+use crate::transmission::{Case, Sump, Transmission};
 
 /// What models read, and where they note.
 #[derive(Debug, Clone)]
@@ -17,6 +18,7 @@ pub(super) struct Conditions<R: Points> {
     pub temperatures: Vec<R>,
     pub oils: Vec<Oil<R>>,
     pub surface: R,
+    pub rest: R,
     pub loads: Vec<SupportLoad<R>>,
     /// Points that are solved; among several, those that are missing must be solved alone.
     pub live: R::Mask,
@@ -42,6 +44,7 @@ impl<R: Points> Conditions<R> {
             oils: &self.oils,
             temperatures: &self.temperatures,
             surface: self.surface,
+            rest: self.rest,
             loads: &self.loads,
             calls: &self.calls,
         };
@@ -100,6 +103,8 @@ pub(super) struct Models<R: Points> {
     pub component_losses: Vec<Result<Loss<R>, Undefined>>,
     pub mesh_losses: Vec<Result<Loss<R>, Undefined>>,
     pub drag_losses: Vec<Result<Loss<R>, Undefined>>,
+    /// What each gear lifts out of the sump.
+    pub lifted: Vec<Lifted<R>>,
     /// Relative speed of each component. \[rad/s\]
     pub relative: Vec<R>,
     /// True for each component that is stationary.
@@ -188,6 +193,7 @@ impl<R: Points> Scratch<R> {
                     temperatures: Vec::with_capacity(transmission.nodes()),
                     oils: vec![Oil::default(); transmission.oils.len()],
                     surface: R::ZERO,
+                    rest: R::ZERO,
                     loads: vec![SupportLoad::default(); supports],
                     live: R::mask(|_| true),
                     common: false,
@@ -210,6 +216,7 @@ impl<R: Points> Scratch<R> {
                 component_losses: losses(transmission.components.len()),
                 mesh_losses: losses(meshes),
                 drag_losses: losses(transmission.drags.len()),
+                lifted: vec![Lifted::default(); transmission.oils.sump.as_ref().map_or(0, Sump::lifts)],
                 relative: zeros(transmission.components.len()),
                 rests: vec![false; transmission.components.len()],
                 round: 0,

@@ -66,6 +66,10 @@ impl Component for Auxiliary {
             notes,
         }
     }
+
+    fn lowest(_part: &NoPart) -> Option<f64> {
+        None
+    }
 }
 
 impl AuxiliaryModel for Scalar<Auxiliary> {

@@ -682,6 +682,9 @@ impl Component for Bearing {
     fn angular_row(part: &BearingPart) -> Result<AngularRow, Cow<'static, str>> {
         part.angular_row()
     }
+    fn lowest(part: &BearingPart) -> Option<f64> {
+        part.oil_height.is_none().then_some(part.raceway)
+    }
 
     fn name(part: &BearingPart) -> String {
         match &part.designation {

@@ -93,6 +93,10 @@ impl Component for Clutch {
             notes,
         }
     }
+
+    fn lowest(_part: &ClutchPart) -> Option<f64> {
+        None
+    }
 }
 
 impl ClutchModel for Scalar<Clutch> {

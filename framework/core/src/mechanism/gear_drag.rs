@@ -143,6 +143,9 @@ pub struct DragPart {
     /// Volume of the oil in the housing. [l]
     #[schemars(range(min = 0.001, max = 10000.0))]
     pub oil_volume: Option<f64>,
+    /// Share of the inside of the housing that the oil fills at rest. [-]
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub fill: Option<f64>,
     /// Cross-section area of the gear case, perpendicular to the shafts. [cm2]
     #[schemars(range(min = 0.1, max = 1e7))]
     pub section_area: Option<f64>,
@@ -183,14 +186,14 @@ context! {
         speed: 1500.0 in -30000.0..=30000.0 from "kinematics",
         /// Speed of the second gear, signed. [rpm]
         speed_2: -4645.0 in -30000.0..=30000.0 from "kinematics",
-        /// Immersion depth of the tip circle. [mm]
-        tip_dip: 20.0 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the position of its shaft",
-        /// Immersion depth of the reference circle. [mm]
-        dip: 18.05 in 0.0..=5000.0 from "`level` of the gear, else the oil level and the position of its shaft",
-        /// Immersion depth of the second gear's tip circle. [mm]
-        tip_dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level and the position of its shaft",
-        /// Immersion depth of the second gear's reference circle. [mm]
-        dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level and the position of its shaft",
+        /// Immersion depth of the tip circle at rest. [mm]
+        tip_dip: 20.0 in 0.0..=5000.0 from "`level` of the gear, else the oil level at rest and the position of its shaft",
+        /// Immersion depth of the reference circle at rest. [mm]
+        dip: 18.05 in 0.0..=5000.0 from "`level` of the gear, else the oil level at rest and the position of its shaft",
+        /// Immersion depth of the second gear's tip circle at rest. [mm]
+        tip_dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level at rest and the position of its shaft",
+        /// Immersion depth of the second gear's reference circle at rest. [mm]
+        dip_2: 0.0 in 0.0..=5000.0 from "`level` of that gear, else the oil level at rest and the position of its shaft",
         /// One if the gear's lowest point moves towards a mate, zero if it moves away from all of them. [-]
         towards_mesh: 0.0 in 0.0..=1.0 from "direction of rotation and the positions of the mates",
         /// The same for the second gear. [-]

@@ -68,8 +68,8 @@ context! {
         planet_speed: -750.0 in -100000.0..=100000.0 from "kinematics",
         /// Volume of the oil. [ml]
         volume: 90.0 in 1.0..=100000.0 from "`housing.oil.volume`",
-        /// Oil height above the carrier's axis. [mm]
-        level: -10.0 in -10000.0..=10000.0 from "the oil level and the position of the carrier",
+        /// Oil height at rest above the carrier's axis. [mm]
+        level: -10.0 in -10000.0..=10000.0 from "the oil level at rest and the position of the carrier",
         /// Temperature of the oil. [degC]
         temperature: 60.0 in -40.0..=200.0 from "`lubricant` of the set or the oil of the housing: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]
@@ -119,7 +119,7 @@ has_level: true
     fn needs(part: &PlanetaryPart, quantity: &str) -> Option<&'static str> {
         match quantity {
             "volume" if part.oil_volume.is_none() => Some("`housing.oil.volume`"),
-            "level" if !part.has_level => Some("`housing.oil.level`"),
+            "level" if !part.has_level => Some("`housing.oil.level`, or `volume` with `housing.inside`"),
             "size" if part.size.is_none() => Some("`size` of the planetary set"),
             "ratio" if part.ratio.is_none() => Some("`ratio` of the planetary set"),
             _ => None,

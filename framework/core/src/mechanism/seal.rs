@@ -109,6 +109,10 @@ impl Component for Seal {
             notes,
         }
     }
+
+    fn lowest(_part: &SealPart) -> Option<f64> {
+        None
+    }
 }
 
 impl SealModel for Scalar<Seal> {

@@ -121,6 +121,10 @@ impl Component for Synchronizer {
             notes,
         }
     }
+
+    fn lowest(_part: &CouplingPart) -> Option<f64> {
+        None
+    }
 }
 
 impl SynchronizerModel for Scalar<Synchronizer> {

@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::build::Build;
 use super::{Entry, from_resolved};
-use crate::attach::{Attach, Common, Names, Spot, State};
+use crate::attach::{Attach, Common, Level, Names, Spot, State};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::loads::{AngularRow, Carries, Induced, StaticRating};
@@ -69,6 +69,10 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     /// Number of its oil, if it has one only.
     fn oil(&self) -> Option<u16> {
         None
+    }
+    /// True if its loss may depend on the oil height at its place while rotating, which is at most a height above the datum. \[m\]
+    fn reads_level(&self, _highest: f64) -> bool {
+        false
     }
     /// Its name in messages, such as its designation.
     fn name(&self) -> String {
@@ -165,6 +169,12 @@ impl<C: Component> Placed for PlacedAs<C> {
     }
     fn oil(&self) -> Option<u16> {
         Some(self.spot.oil)
+    }
+    fn reads_level(&self, highest: f64) -> bool {
+        let (Level::Sump { height, slope, orbit }, Some(lowest)) = (self.spot.level, C::lowest(&self.part)) else {
+            return false;
+        };
+        !self.model.off && (highest - height) * slope + orbit + lowest > 0.0
     }
     fn name(&self) -> String {
         C::name(&self.part)

@@ -14,17 +14,20 @@ use super::preloads::Preloading;
 use super::seats::{GearSeat, MeshSeat};
 use super::states::{GearState, states};
 use super::statics::{Imported, imported, load_factors, shaft_loads};
-use super::{Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Transmission, WHEELS};
+use super::{
+    Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Sump, Transmission, WHEELS,
+};
 use crate::attach::{Common, Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::{Diagnostic, classify};
 use crate::language::Language;
 use crate::loads::ShaftLoads;
-use crate::mechanism::Mechanism;
 use crate::mechanism::ModelRef;
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
+use crate::mechanism::seal::Seal;
+use crate::mechanism::{Component as _, Mechanism};
 use crate::registry::{Build, Files, Memory};
 use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
@@ -59,7 +62,7 @@ impl Transmission {
         let mut warnings = Vec::new();
         let frame = Frame::new(language, resolved, &mut memory, &mut found, &mut warnings)?;
         let (entry, members, ports) = (&frame.entry, &frame.members, &frame.ports);
-        let mut oils = OilNumbers::new(entry, members, &frame.meshes, &frame.nodes, &mut memory);
+        let mut oils = OilNumbers::new(entry, members, (&frame.gears, &frame.meshes), &frame.nodes, &mut memory);
         let mut build = Build::again(language.registry(), files, memory);
         let models = Models::new(
             language,
@@ -364,6 +367,7 @@ impl Models {
         found.extend(grease::faults(&resolved.value, entry));
         warnings.extend(grease::doubts(&resolved.value, entry, &frame.members, gears, oils));
         warnings.extend(plausible::oil_level(entry, gears, &levels, oils));
+        warnings.extend(covered_seals(resolved, &frame.members, oils));
         for (id, oil) in oils.named() {
             warnings.extend(plausible::viscosities(id, oil, &entry.plausibility));
         }
@@ -382,6 +386,24 @@ impl Models {
         };
         models.drags = drags.built();
         classify(found, codes::DRAG);
+        let highest = oils.highest_at_rest();
+        let reads = models
+            .components
+            .iter()
+            .any(|component| component.placed.reads_level(highest));
+        if let (Some(inside), Some(rest)) = (oils.inside.clone(), oils.rest())
+            && let Some(oil) = oils.oil("housing.oil", &Common::default())
+        {
+            oils.sump = Some(Sump::new(
+                &inside,
+                rest,
+                oil.into(),
+                reads,
+                (gears, &levels),
+                &models.drags,
+            ));
+        }
+        warnings.append(&mut oils.warnings);
         planets::assembly(entry, &frame.members, gears, meshes, warnings);
         models
     }
@@ -707,6 +729,35 @@ fn mesh_models(
         }
     }
     models
+}
+
+/// Reports seals that the oil at rest covers.
+fn covered_seals(resolved: &Resolved, members: &Members, oils: &OilNumbers<'_>) -> Vec<Diagnostic> {
+    let entries = resolved.value.get(Seal::SECTION).and_then(Value::as_object);
+    let depth = |seal: &Value| {
+        let member = members.names.iter().position(|name| seal["shaft"] == name.as_str())?;
+        let at = seal["at"].as_f64().unwrap_or(0.0);
+        let Level::Sump { height, slope, .. } = oils.level(Some(member as u16), at) else {
+            return None;
+        };
+        Some((oils.rest()? - height) * slope - 0.5 * seal["diameter"].as_f64()?)
+    };
+    let covered = entries
+        .into_iter()
+        .flatten()
+        .filter_map(|(id, seal)| Some((id, depth(seal)?)));
+    covered
+        .filter(|(_, depth)| *depth > 0.0)
+        .map(|(id, depth)| {
+            let message = format!(
+                "the oil at rest covers the seal: it stands {:.1} mm above its upper edge",
+                depth * 1e3
+            );
+            Diagnostic::warning(format!("{}.{id}", Seal::SECTION), message)
+                .code(codes::OIL_LEVEL)
+                .help("check the level and `measured_from`, the volume, and the axis of the shaft")
+        })
+        .collect()
 }
 
 /// Oil height at each gear.

@@ -81,6 +81,7 @@ impl Drags<'_, '_, '_> {
             seat: DragSeat {
                 path: format!("gears.{}", gear.id),
                 members: [gear.member, gear.member],
+                gears: [i, i],
                 pair: false,
                 radii: [self.radii(i), self.radii(i)],
                 levels: [self.levels[i], self.levels[i]],
@@ -89,7 +90,7 @@ impl Drags<'_, '_, '_> {
             },
             part: (self.build).part_again(
                 &format!("gears.{}", gear.id),
-                part(self.entry, body(gear, i, mesh), None),
+                part(self.entry, self.oils.filled(), body(gear, i, mesh), None),
             ),
             common: Common {
                 lubricant: written.lubricant.clone(),
@@ -110,6 +111,7 @@ impl Drags<'_, '_, '_> {
             seat: DragSeat {
                 path: mesh.path.clone(),
                 members: mesh.members,
+                gears: mesh.gears,
                 pair: true,
                 radii: [self.radii(a), self.radii(b)],
                 levels: [self.levels[a], self.levels[b]],
@@ -118,7 +120,12 @@ impl Drags<'_, '_, '_> {
             },
             part: (self.build).part_again(
                 &format!("{} drag", mesh.path),
-                part(self.entry, body(&self.gears[a], a, mesh), Some(mate)),
+                part(
+                    self.entry,
+                    self.oils.filled(),
+                    body(&self.gears[a], a, mesh),
+                    Some(mate),
+                ),
             ),
             common: Common {
                 // Braking of both gears at the mesh is their drag, not the loss of the mesh.
@@ -188,6 +195,7 @@ impl Drags<'_, '_, '_> {
                 part: Arc::clone(&place.part),
                 model,
                 oil,
+                churning: covers.churning,
             });
         }
     }

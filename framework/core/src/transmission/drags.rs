@@ -12,6 +12,8 @@ pub(crate) struct DragSeat {
     pub path: String,
     /// Members of the gear or of both gears.
     pub members: [usize; 2],
+    /// Numbers of the gear or of both gears.
+    pub gears: [usize; 2],
     /// True for a mesh.
     pub pair: bool,
     /// Tip and reference radius of each gear. \[m\]
@@ -65,13 +67,19 @@ pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> GearBody {
     }
 }
 
-/// A part from the bodies and the housing.
-pub fn part(entry: &GearboxEntry, gear: GearBody, mate: Option<GearBody>) -> DragPart {
+/// A part from the bodies and the housing, with the volume of the oil and the share of the housing that it fills. \[m3 and -\]
+pub fn part(
+    entry: &GearboxEntry,
+    [oil_volume, fill]: [Option<f64>; 2],
+    gear: GearBody,
+    mate: Option<GearBody>,
+) -> DragPart {
     let housing = &entry.housing;
     DragPart {
         gear,
         mate,
-        oil_volume: housing.oil.as_ref().and_then(|o| o.volume),
+        oil_volume,
+        fill,
         section_area: housing.section.map(|s| s.area),
         section_perimeter: housing.section.map(|s| s.perimeter),
         radial_clearance: housing.clearance.map(|c| c.radial),

@@ -2,24 +2,49 @@
 
 use std::sync::Arc;
 
+use super::inside::Inside;
 use super::members::Members;
 use super::nodes::NodeNames;
-use super::seats::{MeshSeat, orbit};
+use super::seats::{GearSeat, MeshSeat, orbit};
+use super::sump::Sump;
 use crate::attach::{Common, Level, Oil, Places, dangling};
-use crate::description::{GearboxEntry, Running};
+use crate::codes;
+use crate::description::{GearboxEntry, OilEntry, Running, RunningWord};
 use crate::document::Diagnostic;
 use crate::immersion::upward;
 use crate::lubricant::Lubricant;
 use crate::mechanism::gear_mesh::MeshOil;
-use crate::real::Real;
+use crate::real::{Points, Real};
 use crate::registry::Memory;
 use crate::table::clamped;
+
+/// Oil height of the sump above its datum at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AtRest {
+    /// No oil level is known.
+    Dry,
+    /// Only a level while rotating is stated, which is used.
+    AsRunning,
+    /// One height at all temperatures. \[m\]
+    Stated(f64),
+    /// That of a mass of oil (kg), without a volume (m3) elsewhere, plus an offset (m).
+    Filled {
+        /// Mass of the oil as filled. \[kg\]
+        mass: f64,
+        /// Volume in pipes and coolers. \[m3\]
+        circuit: f64,
+        /// Added to the level. \[m\]
+        offset: f64,
+    },
+}
 
 /// Oil height of the sump above its datum while rotating.
 #[derive(Debug, Clone)]
 pub enum Surface {
-    /// No oil level is stated.
-    Dry,
+    /// As at rest.
+    AtRest,
+    /// Estimated from what the gears lift, at a place in the band of the estimates from -1 to 1.
+    Estimated(f64),
     /// One height. \[m\]
     Fixed(f64),
     /// Heights over the speed of a member. \[m over rad/s\]
@@ -38,18 +63,34 @@ pub struct Oils {
     lubricants: Vec<Arc<Lubricant>>,
     /// Lubricant, temperature node and offset of each oil.
     spots: Vec<(usize, usize, f64)>,
+    at_rest: AtRest,
     surface: Surface,
+    /// What determines levels from volumes; `None` if the oil space is not known.
+    pub(crate) sump: Option<Sump>,
     /// The oil of the housing.
-    sump: Option<usize>,
-    /// Volume of the oil in the housing, if it is stated. \[m3\]
+    default: Option<usize>,
+    /// Volume of the oil in the housing, if it is known. \[m3\]
     volume: Option<f64>,
 }
 
 impl Oils {
-    /// Oil height above the datum at given speeds. \[m\]
-    pub fn surface<R: Real>(&self, speeds: &[R]) -> R {
+    /// Oil height above the datum at rest, at given speeds and states of the oils; minus infinity if no level is known. \[m\]
+    pub(crate) fn at_rest<R: Points>(&self, speeds: &[R], oils: &[Oil<R>]) -> R {
+        let dry = R::constant(f64::NEG_INFINITY);
+        match (self.at_rest, &self.sump) {
+            (AtRest::Stated(height), _) => R::constant(height),
+            (AtRest::AsRunning, _) => self.running(speeds, dry),
+            (AtRest::Filled { mass, circuit, offset }, Some(sump)) => {
+                sump.level(R::constant(mass) / oils[sump.oil].rho - circuit) + offset
+            }
+            (AtRest::Filled { .. } | AtRest::Dry, _) => dry,
+        }
+    }
+
+    /// Oil height above the datum while rotating, from that at rest, if it is not estimated. \[m\]
+    pub(crate) fn running<R: Real>(&self, speeds: &[R], rest: R) -> R {
         match &self.surface {
-            Surface::Dry => R::constant(f64::NEG_INFINITY),
+            Surface::AtRest | Surface::Estimated(_) => rest,
             Surface::Fixed(height) => R::constant(*height),
             Surface::Over {
                 member,
@@ -57,6 +98,16 @@ impl Oils {
                 levels,
             } => speeds[*member].lift(|speed| clamped(at, levels, speed.abs())),
         }
+    }
+
+    /// How the level while rotating is found.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// How the level at rest is found.
+    pub fn rest(&self) -> AtRest {
+        self.at_rest
     }
 
     /// Writes the state of all oils at the temperatures of the nodes, or at one for all nodes. \[degC\]
@@ -74,13 +125,13 @@ impl Oils {
     /// Density and specific heat of the sump at a temperature in degC; those of the first oil without a sump.
     /// \[kg/m3 and J/(kg K)\]
     pub fn heat(&self, temperature: f64) -> (f64, f64) {
-        let oil = self.lubricants.get(self.sump.unwrap_or(0));
+        let oil = self.lubricants.get(self.default.unwrap_or(0));
         oil.map_or((0.0, 0.0), |oil| {
             (oil.density(temperature), oil.heat_capacity(temperature))
         })
     }
 
-    /// Volume of the oil in the housing, if it is stated, and its mass at a temperature in degC. \[m3 and kg\]
+    /// Volume of the oil in the housing, if it is known, and its mass at a temperature in degC. \[m3 and kg\]
     pub fn fill(&self, temperature: f64) -> Option<(f64, f64)> {
         let (density, _) = self.heat(temperature);
         self.volume.map(|volume| (volume, volume * density))
@@ -105,24 +156,29 @@ pub(crate) struct OilNumbers<'a> {
     default: Option<usize>,
     /// True if the housing's oil does not exist, which is reported once.
     dangles: bool,
+    at_rest: AtRest,
     surface: Surface,
-    /// Level of the sump at standstill, if stated. \[m\]
-    at_rest: Option<f64>,
-    /// Volume of the sump, if stated. \[m3\]
+    /// Level at rest at the oil temperature as described, if known. \[m\]
+    rest: Option<f64>,
+    pub inside: Option<Inside>,
+    /// Volume of the sump, if known. \[m3\]
     volume: Option<f64>,
+    /// What determines levels from volumes, once the drag models are built.
+    pub sump: Option<Sump>,
     /// Axis of each member, and the radius of its orbit.
     axes: Vec<Option<([f64; 2], f64)>>,
     up: [f64; 3],
     datum: [f64; 2],
     nodes: &'a NodeNames,
     pub findings: Vec<Diagnostic>,
+    pub warnings: Vec<Diagnostic>,
 }
 
 impl<'a> OilNumbers<'a> {
     pub fn new(
         entry: &'a GearboxEntry,
         members: &Members,
-        meshes: &[MeshSeat],
+        (gears, meshes): (&[GearSeat], &[MeshSeat]),
         nodes: &'a NodeNames,
         memory: &mut Memory,
     ) -> Self {
@@ -130,7 +186,7 @@ impl<'a> OilNumbers<'a> {
         let names: Vec<&str> = entry.lubricants.ids().collect();
         let mut lubricants = lubricants(entry, memory, &mut findings);
         // A planet's axis orbits that of its carrier.
-        let axes = (0..members.names.len())
+        let axes: Vec<Option<([f64; 2], f64)>> = (0..members.names.len())
             .map(|m| match members.planets[m] {
                 Some(planet) => Some((members.axes[planet.carrier]?, orbit(m, members, meshes)?)),
                 None => Some((members.axes[m]?, 0.0)),
@@ -140,8 +196,7 @@ impl<'a> OilNumbers<'a> {
         let up = upward(entry.housing.grade, entry.housing.bank);
         let shafts: Vec<&str> = members.names.iter().map(String::as_str).collect();
         let mut datum = [0.0; 2];
-        let mut surface = Surface::Dry;
-        let mut at_rest = None;
+        let mut surface = Surface::AtRest;
         let mut default = None;
         if let Some(oil) = &entry.housing.oil {
             default = names.iter().position(|n| *n == oil.lubricant);
@@ -154,36 +209,7 @@ impl<'a> OilNumbers<'a> {
                     None => findings.push(dangling("housing.oil.measured_from", "shaft", from, &shafts)),
                 }
             }
-            let offset = oil.level_offset;
-            at_rest = oil.level.map(|level| level + offset);
-            surface = match (&oil.running_level, oil.level) {
-                (Some(Running::Height(height)), _) => Surface::Fixed(height + offset),
-                (Some(Running::Over(over)), _) => {
-                    let path = "housing.oil.running_level";
-                    let member = shafts.iter().position(|s| *s == over.shaft);
-                    if member.is_none() {
-                        findings.push(dangling(&format!("{path}.shaft"), "shaft", &over.shaft, &shafts));
-                    }
-                    if over.speeds.len() != over.levels.len() || over.speeds.windows(2).any(|w| w[1] <= w[0]) {
-                        findings.push(
-                            Diagnostic::error(
-                                path,
-                                "the numbers of speeds and levels differ, or speeds do not increase",
-                            )
-                            .help("state increasing speeds and one level for each"),
-                        );
-                        Surface::Dry
-                    } else {
-                        Surface::Over {
-                            member: member.unwrap_or(0),
-                            speeds: over.speeds.clone(),
-                            levels: over.levels.iter().map(|l| l + offset).collect(),
-                        }
-                    }
-                }
-                (None, Some(level)) => Surface::Fixed(level + offset),
-                (None, None) => Surface::Dry,
-            };
+            surface = running(oil, &shafts, &mut findings);
         } else if names.len() == 1 {
             default = Some(0);
         }
@@ -196,31 +222,168 @@ impl<'a> OilNumbers<'a> {
         if broken {
             lubricants.clear();
         }
-        Self {
-            volume: entry.housing.oil.as_ref().and_then(|oil| oil.volume),
+        let place = (up, datum);
+        let oil = entry.housing.oil.as_ref();
+        // An inside without oil is checked, too.
+        let asked = oil.is_some() || entry.housing.inside.is_some();
+        let inside = asked.then(|| Inside::new(entry, members, gears, &axes, place, memory, &mut findings));
+        let mut oils = Self {
             names,
-            lubricants,
-            spots: Vec::new(),
             default,
             dangles: default.is_none() && entry.housing.oil.is_some(),
+            at_rest: AtRest::Dry,
             surface,
-            at_rest,
+            rest: None,
+            inside: inside.flatten(),
+            volume: None,
+            sump: None,
+            lubricants,
+            spots: Vec::new(),
             axes,
             up,
             datum,
             nodes,
             findings,
+            warnings: Vec::new(),
+        };
+        if let Some(oil) = oil {
+            oils.settle(oil, entry.thermal.oil);
+        }
+        oils
+    }
+
+    /// Finds level at rest and volume from each other, and compares them if both are stated. \[degC\]
+    fn settle(&mut self, oil: &OilEntry, temperature: f64) {
+        self.volume = oil.volume;
+        if oil.dry_sump {
+            let stated = [
+                ("level", oil.level.is_some()),
+                ("running_level", oil.running_level.is_some()),
+            ];
+            if let Some((key, _)) = stated.iter().find(|(_, stated)| *stated) {
+                self.findings.push(
+                    Diagnostic::error(format!("housing.oil.{key}"), "a dry sump has no level")
+                        .help("remove the level or `dry_sump`"),
+                );
+            }
+            self.surface = Surface::AtRest;
+            return;
+        }
+        let measured = matches!(self.surface, Surface::Fixed(_) | Surface::Over { .. });
+        let space = self.inside.as_ref().map(|inside| Arc::clone(&inside.space));
+        if let Some(level) = oil.level {
+            self.at_rest = AtRest::Stated(level + oil.level_offset);
+            self.rest = Some(level + oil.level_offset);
+            if let Some(space) = space {
+                self.volume = oil.volume.or_else(|| Some(space.volume(level)[0] + oil.circuit_volume));
+                self.compare(oil, level);
+            }
+        } else if let (Some(volume), Some(space), Some(lubricant)) =
+            (oil.volume, space, self.default.and_then(|i| self.lubricants.get(i)))
+        {
+            let mass = volume * lubricant.density(oil.fill_temperature);
+            let hot = mass / lubricant.density(temperature) - oil.circuit_volume;
+            self.at_rest = AtRest::Filled {
+                mass,
+                circuit: oil.circuit_volume,
+                offset: oil.level_offset,
+            };
+            self.rest = Some(space.level(hot) + oil.level_offset);
+            if hot <= 0.0 || hot > space.full() {
+                let basis = self.inside.as_ref().map_or("", Inside::basis);
+                let message = format!(
+                    "{:.3} l of oil at {temperature} degC have no level: {:.3} l fit {basis}",
+                    hot * 1e3,
+                    space.full() * 1e3
+                );
+                self.findings.push(
+                    Diagnostic::error("housing.oil.volume", message)
+                        .code(codes::OIL_SPACE)
+                        .help("correct the volume, state `housing.inside` from the drawing, or state the level"),
+                );
+            }
+        } else if measured {
+            self.at_rest = AtRest::AsRunning;
+            self.warnings.push(
+                Diagnostic::warning("housing.oil.running_level", "the level at rest is not known")
+                    .code(codes::OIL_LEVEL)
+                    .note("churning laws were measured over the level at rest; the one while rotating is used, which is lower")
+                    .help("state `level`, or `volume` with `housing.inside`"),
+            );
+        }
+        if matches!(self.at_rest, AtRest::Dry) {
+            self.surface = Surface::AtRest;
         }
     }
 
-    /// The highest oil level, at standstill or rotating, above the datum; `None` if none is stated. \[m\]
+    /// Warns if a stated volume is not that of a stated level. \[m\]
+    fn compare(&mut self, oil: &OilEntry, level: f64) {
+        let (Some(inside), Some(volume)) = (&self.inside, oil.volume) else {
+            return;
+        };
+        let (filled, below) = (volume - oil.circuit_volume, inside.space.volume(level)[0]);
+        // A housing is larger than the hull of its gears, and a drawing is exact within some percent.
+        let least = if inside.drawn { 0.9 } else { 1.0 / 3.0 };
+        if below >= least * filled && below <= 1.1 * filled {
+            return;
+        }
+        let message = format!(
+            "below {:.2} mm are {:.3} l {}, and {:.3} l are filled, whose level is {:.2} mm",
+            level * 1e3,
+            below * 1e3,
+            inside.basis(),
+            filled * 1e3,
+            inside.space.level(filled) * 1e3
+        );
+        self.warnings.push(
+            Diagnostic::warning("housing.oil.level", message)
+                .code(codes::OIL_LEVEL)
+                .help("correct the level or the volume, state `circuit_volume`, or `housing.inside` from the drawing; the level is used"),
+        );
+    }
+
+    /// True if an oil level is known.
+    pub fn has_level(&self) -> bool {
+        !matches!(self.at_rest, AtRest::Dry)
+    }
+
+    /// Level at rest above the datum at the oil temperature as described, if it is known. \[m\]
+    pub fn rest(&self) -> Option<f64> {
+        self.rest
+    }
+
+    /// The highest oil level, at standstill or rotating, above the datum; `None` if none is known. \[m\]
     pub fn highest(&self) -> Option<f64> {
         let turning = match &self.surface {
-            Surface::Dry => return None,
-            Surface::Fixed(level) => *level,
-            Surface::Over { levels, .. } => levels.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            Surface::AtRest | Surface::Estimated(_) => None,
+            Surface::Fixed(level) => Some(*level),
+            Surface::Over { levels, .. } => levels.iter().copied().reduce(f64::max),
         };
-        Some(self.at_rest.map_or(turning, |level| level.max(turning)))
+        match (self.rest, turning) {
+            (Some(rest), Some(turning)) => Some(rest.max(turning)),
+            (rest, turning) => rest.or(turning),
+        }
+    }
+
+    /// A height that the level at rest exceeds at no temperature. \[m\]
+    pub fn highest_at_rest(&self) -> f64 {
+        /// More than any oil expands from its filling.
+        const EXPANDED: f64 = 1.5;
+        match (self.at_rest, &self.inside, self.volume) {
+            (AtRest::Filled { offset, .. }, Some(inside), Some(volume)) => {
+                inside.space.level(EXPANDED * volume) + offset
+            }
+            _ => self.rest.unwrap_or(f64::NEG_INFINITY),
+        }
+    }
+
+    /// Volume of the oil, and the share of the inside of the housing that it fills, if they are known. \[m3 and -\]
+    pub fn filled(&self) -> [Option<f64>; 2] {
+        let share = self.inside.as_ref().zip(self.rest).map(|(inside, rest)| {
+            let space = &inside.space;
+            space.volume(rest)[0] / space.inside()
+        });
+        [self.volume, share]
     }
 
     /// The lubricant of an oil; `None` if a lubricant has a fault that was reported.
@@ -251,12 +414,46 @@ impl<'a> OilNumbers<'a> {
             Oils {
                 lubricants: self.lubricants,
                 spots: self.spots,
+                at_rest: self.at_rest,
                 surface: self.surface,
-                sump: self.default,
+                sump: self.sump,
+                default: self.default,
                 volume: self.volume,
             },
             self.findings,
         )
+    }
+}
+
+/// How the level while rotating is found, as stated.
+fn running(oil: &OilEntry, shafts: &[&str], findings: &mut Vec<Diagnostic>) -> Surface {
+    let offset = oil.level_offset;
+    match &oil.running_level {
+        None => Surface::Estimated(oil.running_band),
+        Some(Running::Word(RunningWord::AtRest)) => Surface::AtRest,
+        Some(Running::Height(height)) => Surface::Fixed(height + offset),
+        Some(Running::Over(over)) => {
+            let path = "housing.oil.running_level";
+            let member = shafts.iter().position(|s| *s == over.shaft);
+            if member.is_none() {
+                findings.push(dangling(&format!("{path}.shaft"), "shaft", &over.shaft, shafts));
+            }
+            if over.speeds.len() != over.levels.len() || over.speeds.windows(2).any(|w| w[1] <= w[0]) {
+                findings.push(
+                    Diagnostic::error(
+                        path,
+                        "the numbers of speeds and levels differ, or speeds do not increase",
+                    )
+                    .help("state increasing speeds and one level for each"),
+                );
+                return Surface::AtRest;
+            }
+            Surface::Over {
+                member: member.unwrap_or(0),
+                speeds: over.speeds.clone(),
+                levels: over.levels.iter().map(|l| l + offset).collect(),
+            }
+        }
     }
 }
 
@@ -315,7 +512,7 @@ impl Places for OilNumbers<'_> {
     }
 
     fn level(&self, member: Option<u16>, at: f64) -> Level {
-        if matches!(self.surface, Surface::Dry) {
+        if !self.has_level() {
             return Level::Dry;
         }
         let Some(([y, z], orbit)) = member.and_then(|m| self.axes[m as usize]) else {

@@ -90,7 +90,7 @@ impl PlacedDrag {
             carrier_speed,
             planet_speed,
             volume: R::constant(part.oil_volume.unwrap_or(0.0)),
-            level: state.level(&self.spot).level.at_least(-10.0),
+            level: state.level_at_rest(self.spot.level).level.at_least(-10.0),
             temperature: oil.temperature,
             nu: oil.nu,
             eta: oil.eta,
@@ -190,10 +190,9 @@ pub fn models(
             .filter(|g| gears[**g].member == *first)
             .filter_map(|g| {
                 let mesh = meshes.iter().find(|m| m.gears.contains(g))?;
-                Some(part(entry, body(&gears[*g], *g, mesh), None))
+                Some(part(entry, oils.filled(), body(&gears[*g], *g, mesh), None))
             })
             .collect();
-        let oil = entry.housing.oil.as_ref();
         let part = PlanetaryPart {
             count: set.count,
             orbit: orbit(*first, members, meshes).unwrap_or(0.0),
@@ -201,8 +200,8 @@ pub fn models(
             planets,
             size: set.size,
             ratio: set.ratio,
-            oil_volume: oil.and_then(|o| o.volume),
-            has_level: oil.is_some_and(|o| o.level.is_some() || o.running_level.is_some()),
+            oil_volume: oils.filled()[0],
+            has_level: oils.has_level(),
         };
         let part = build.part_again(&path, part);
         let common = Common {

@@ -197,8 +197,9 @@ pub(crate) fn oil_level(
         .max_by(|(_, a), (_, b)| a.total_cmp(b));
     let (gear, depth) = lowest.filter(|(_, depth)| *depth <= 0.0)?;
     let key = match entry.housing.oil.as_ref() {
-        Some(oil) if oil.level.is_none() => "running_level",
-        _ => "level",
+        Some(oil) if oil.level.is_some() => "level",
+        Some(oil) if oil.running_level.is_some() => "running_level",
+        _ => "volume",
     };
     Some(
         Diagnostic::warning(

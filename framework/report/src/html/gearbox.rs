@@ -52,6 +52,7 @@ pub fn gearbox_page(cx: &Planner<'_>, name: &str, gearbox: &Gearbox) -> Result<G
             visible_json(&serde_json::to_string(&p.losses).unwrap_or_default()).into_owned()
         }),
         pictures: point.iter().flat_map(|p| p.pictures.clone()).collect(),
+        oil: point.as_ref().map(|p| p.oil.clone()).unwrap_or_default(),
         point_tables: point.map(|p| p.tables).unwrap_or_default(),
         title: text("title"),
         source: text("source"),

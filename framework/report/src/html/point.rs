@@ -16,6 +16,7 @@ use gearloss_studies::points::{Given, OilTemperature, evidence};
 use super::PageTable;
 use super::gearbox::table;
 use crate::picture::{Picture, Screen, Waterfall};
+use crate::schematic::oil_section;
 use crate::text::{fixed, number};
 
 /// The point of the report: from the study, or the largest torque and speed of its first grid.
@@ -51,6 +52,8 @@ pub struct Page {
     pub losses: Vec<(String, f64)>,
     /// From the input power to the output power with every set.
     pub pictures: Vec<Picture>,
+    /// Cross-section of the housing with its oil, with the first set.
+    pub oil: String,
 }
 
 /// Solves the point with every set.
@@ -58,7 +61,7 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
     let first = sets.first()?;
     let (gear, given) = place(runner, &first.transmission)?;
     let (mut tables, mut pictures, mut rests, mut words) = (Vec::new(), Vec::new(), Vec::new(), String::new());
-    let mut losses = Vec::new();
+    let (mut losses, mut oil) = (Vec::new(), String::new());
     for (i, b) in sets.iter().enumerate() {
         let t = &b.transmission;
         let points = runner.listed(t, &gear, vec![given]);
@@ -89,6 +92,10 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
                 },
                 b.name
             );
+            let levels = solution.oil_levels();
+            oil = levels
+                .and_then(|levels| oil_section(t, &b.resolved.value, &levels))
+                .unwrap_or_default();
             if solution.has_flow() {
                 losses = losses_of_parts(t, &solution);
                 tables.push(bearings(b, &solution));
@@ -124,6 +131,7 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
         place: crate::text::place(given.torque, given.speed * RPM),
         losses,
         pictures,
+        oil,
     })
 }
 

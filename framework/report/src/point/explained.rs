@@ -8,6 +8,7 @@ use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::points::{PreparedPoint, SolvedPoint};
 
+use super::oil::oil_level_text;
 use super::{explain_heat_path, explain_part, explain_ratings, heading, locking_text, ports_text, temperature_text};
 use crate::text::figures;
 
@@ -63,6 +64,7 @@ impl Explained {
         if found.outcome().is_some() {
             text = text + &temperature_text(transmission, found) + "\n";
         }
+        text += &oil_level_text(solved.solution.oil_levels());
         for way in &self.ways {
             let surface = found.balance.as_ref().and_then(|b| b.surface).unwrap_or(found.oil);
             text += &explain_heat_path(transmission, gearbox, resolved, *way, (found.oil, surface));

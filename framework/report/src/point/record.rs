@@ -21,6 +21,7 @@ use serde::Serialize;
 
 use super::multiplied;
 use super::network::NetworkRecord;
+use super::oil::OilLevelRecord;
 
 const FORMAT: &str = "gearloss-point/1";
 
@@ -70,6 +71,8 @@ pub struct PointRecord {
     oil_temperature_degc: Option<f64>,
     /// Temperature at which the losses were calculated, also if no balance was found. [degC]
     evaluated_at_degc: f64,
+    /// Oil levels above the datum; null if no level is known.
+    oil_level: Option<OilLevelRecord>,
     /// Balance of losses and heat with its history; null if the temperature is given.
     balance: Option<BalanceOfPoint>,
     /// Steady state of the thermal network; null without a network, and if the temperature is given.
@@ -253,6 +256,7 @@ impl PointRecord {
             // Without a heat balance there is no oil temperature; the losses are at another one.
             oil_temperature_degc: found.is_sound().then_some(found.oil),
             evaluated_at_degc: found.oil,
+            oil_level: solution.oil_levels().map(OilLevelRecord::from),
             balance: found.balance.as_ref().map(|b| BalanceOfPoint::new(transmission, b)),
             network: found.network.as_ref().and_then(|n| NetworkRecord::new(transmission, n)),
             notes: solved.notes.clone(),

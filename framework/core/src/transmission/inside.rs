@@ -1,0 +1,245 @@
+//! The oil space of a housing from its description: sections of the drawing, or the hull of the gears; solids that displace oil.
+
+use super::members::Members;
+use super::seats::GearSeat;
+use crate::codes;
+use crate::description::{GearboxEntry, InsideEntry, InsideSection};
+use crate::document::Diagnostic;
+use crate::registry::Memory;
+use crate::sump::{CHORDS, Crowded, Disc, Outline, Space, Walls, hull};
+use std::sync::Arc;
+
+/// Radial and axial gap between gears and wall if none is stated: an assumption. \[m\]
+const GAP: f64 = 0.01;
+
+/// The inside of a housing.
+#[derive(Debug, Clone)]
+pub(crate) struct Inside {
+    pub space: Arc<Space>,
+    /// True if its sections are stated; otherwise it is the hull of the gears.
+    pub drawn: bool,
+    pub sections: Vec<Outline>,
+    /// Stated area and horizontal length of the wall. \[m2 and m\]
+    walls: [Option<f64>; 2],
+    /// The upward direction, and the height of the datum along it. \[m\]
+    pub up: ([f64; 3], f64),
+}
+
+/// The axis of each member with the radius of its orbit.
+pub(crate) type Axes = [Option<([f64; 2], f64)>];
+
+/// What determines the space, so that it is built once for descriptions that differ in other values.
+#[derive(Debug, Clone, PartialEq)]
+struct Input {
+    sections: Vec<Outline>,
+    discs: Vec<Disc>,
+    up: [f64; 3],
+    datum: f64,
+}
+
+impl Inside {
+    /// The inside of the housing; `None` if it is not stated and the gears do not determine it: without gears, and with ring gears, which
+    /// are part of a housing that no hull describes.
+    pub fn new(
+        entry: &GearboxEntry,
+        members: &Members,
+        gears: &[GearSeat],
+        axes: &Axes,
+        (up, datum): ([f64; 3], [f64; 2]),
+        memory: &mut Memory,
+        found: &mut Vec<Diagnostic>,
+    ) -> Option<Self> {
+        let stated = entry.housing.inside.clone().unwrap_or_default();
+        let drawn = !stated.sections.is_empty();
+        let sections = if drawn {
+            drawn_sections(&stated, found)?
+        } else {
+            vec![of_gears(entry, &stated, gears, axes)?]
+        };
+        let height = up[1] * datum[0] + up[2] * datum[1];
+        let input = Input {
+            discs: discs(entry, members, gears, axes, &sections, |[y, z], x| {
+                up[0] * x + up[1] * y + up[2] * z - height
+            }),
+            sections: sections.clone(),
+            up,
+            datum: height,
+        };
+        let space = memory.repeat("oil space", input, |input| {
+            Space::new(&input.sections, input.discs.clone(), input.up, input.datum).map(Arc::new)
+        });
+        match space {
+            Ok(space) => Some(Self {
+                space,
+                drawn,
+                sections,
+                walls: [stated.wall_area, stated.wall_length],
+                up: (up, height),
+            }),
+            Err(Crowded(level)) => {
+                // No one has stated the hull.
+                found.extend(drawn.then(||
+                    Diagnostic::error(
+                        "housing.inside",
+                        format!("gears and shafts reach out of the oil space {:.1} mm above the datum", level * 1e3),
+                    )
+                    .code(codes::OIL_SPACE)
+                    .help("check the corners and ranges of the sections against the tip circles and positions of the gears")
+                ));
+                None
+            }
+        }
+    }
+
+    /// Walls above a level: those of the sections and their ends, and half the height of the space as the path of flight.
+    pub fn walls(&self, level: f64) -> Walls {
+        let (mut area, mut length) = (0.0, 0.0_f64);
+        let (up, datum) = self.up;
+        for section in &self.sections {
+            let along = section.length();
+            let middle = 0.5 * (section.range[0] + section.range[1]);
+            let at = |[y, z]: [f64; 2]| up[0] * middle + up[1] * y + up[2] * z - datum;
+            let [rim, end] = section.above(at, level);
+            let [least, greatest] = section.extent();
+            area += rim * along + 2.0 * end;
+            length = length.max(2.0 * (along + greatest - least));
+        }
+        let [stated, horizontal] = self.walls;
+        Walls {
+            area: stated.unwrap_or(area),
+            length: horizontal.unwrap_or(length),
+            flight: 0.5 * (self.space.top() - self.space.bottom()),
+        }
+    }
+
+    /// What the space is, for findings.
+    pub fn basis(&self) -> &'static str {
+        if self.drawn {
+            "in the sections of `housing.inside`"
+        } else {
+            "in the hull of the tip circles, an assumed inside of the housing"
+        }
+    }
+}
+
+/// The stated sections; `None` with errors.
+fn drawn_sections(stated: &InsideEntry, found: &mut Vec<Diagnostic>) -> Option<Vec<Outline>> {
+    let before = found.len();
+    let mut sections = Vec::new();
+    for (id, section) in stated.sections.iter() {
+        let path = format!("housing.inside.sections.{id}");
+        match drawn_section(section) {
+            Ok(outline) => sections.push(outline),
+            Err((message, help)) => {
+                found.push(Diagnostic::error(path, message).code(codes::OIL_SPACE).help(help));
+            }
+        }
+    }
+    (found.len() == before).then_some(sections)
+}
+
+fn drawn_section(section: &InsideSection) -> Result<Outline, (String, &'static str)> {
+    if section.y.len() != section.z.len() {
+        let message = format!("{} values of y and {} of z", section.y.len(), section.z.len());
+        return Err((message, "state y and z of each corner"));
+    }
+    if section.from >= section.to {
+        return Err(("the section ends before it begins".to_owned(), "swap `from` and `to`"));
+    }
+    let outline = Outline {
+        corners: section.y.iter().zip(&section.z).map(|(y, z)| [*y, *z]).collect(),
+        range: [section.from, section.to],
+    };
+    if outline.crosses_itself() || outline.area() <= 0.0 {
+        return Err((
+            "the corners are not those of a polygon: its sides cross or it has no area".to_owned(),
+            "list the corners in order along the wall",
+        ));
+    }
+    Ok(outline)
+}
+
+/// The hull of the gears with gaps.
+fn of_gears(entry: &GearboxEntry, stated: &InsideEntry, gears: &[GearSeat], axes: &Axes) -> Option<Outline> {
+    if gears.iter().any(|gear| gear.ring) {
+        return None;
+    }
+    let clearance = entry.housing.clearance;
+    let (radial, axial) = (clearance.map_or(GAP, |c| c.radial), clearance.map_or(GAP, |c| c.axial));
+    let mut circles = Vec::new();
+    let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+    for gear in gears.iter().filter(|gear| gear.diameters[1] > 0.0) {
+        let (axis, orbit) = axes[gear.member]?;
+        circles.push((axis, orbit + 0.5 * gear.diameters[1] + radial));
+        ends = [
+            ends[0].min(gear.at - 0.5 * gear.facewidth),
+            ends[1].max(gear.at + 0.5 * gear.facewidth),
+        ];
+    }
+    if circles.is_empty() {
+        return None;
+    }
+    let middle = 0.5 * (ends[0] + ends[1]);
+    let half = 0.5 * stated.width.unwrap_or(ends[1] - ends[0] + 2.0 * axial);
+    Some(Outline {
+        corners: hull(&circles, CHORDS),
+        range: [middle - half, middle + half],
+    })
+}
+
+/// What displaces oil: gears as discs up to their reference circles, because tooth and space halve the ring between root and tip, and
+/// sections of shafts inside between them. Planets, whose axes move, are not among them.
+fn discs(
+    entry: &GearboxEntry,
+    members: &Members,
+    gears: &[GearSeat],
+    axes: &Axes,
+    sections: &[Outline],
+    height: impl Fn([f64; 2], f64) -> f64,
+) -> Vec<Disc> {
+    let fixed = |member: usize| axes[member].filter(|(_, orbit)| *orbit == 0.0).map(|(axis, _)| axis);
+    let wheels = gears.iter().filter(|gear| !gear.ring && gear.diameters[0] > 0.0);
+    let wheels: Vec<(Disc, [f64; 2], [f64; 2])> = wheels
+        .filter_map(|gear| {
+            let axis = fixed(gear.member)?;
+            let disc = Disc {
+                height: height(axis, gear.at),
+                radius: 0.5 * gear.diameters[0],
+                width: gear.facewidth,
+            };
+            Some((
+                disc,
+                axis,
+                [gear.at - 0.5 * gear.facewidth, gear.at + 0.5 * gear.facewidth],
+            ))
+        })
+        .collect();
+    let mut discs: Vec<Disc> = wheels.iter().map(|(disc, ..)| *disc).collect();
+    for (member, (_, shaft)) in entry.shafts.iter().enumerate() {
+        let Some(axis) = members.axes[member] else { continue };
+        for part in &shaft.sections {
+            let mut free: Vec<[f64; 2]> = sections
+                .iter()
+                .map(|section| both([part.from, part.to], section.range))
+                .collect();
+            for (_, _, taken) in wheels.iter().filter(|(_, own, _)| *own == axis) {
+                free = free
+                    .iter()
+                    .flat_map(|range| [[range[0], range[1].min(taken[0])], [range[0].max(taken[1]), range[1]]])
+                    .collect();
+                free.retain(|range| range[1] > range[0]);
+            }
+            discs.extend(free.iter().filter(|range| range[1] > range[0]).map(|range| Disc {
+                height: height(axis, 0.5 * (range[0] + range[1])),
+                radius: 0.5 * part.outer,
+                width: range[1] - range[0],
+            }));
+        }
+    }
+    discs
+}
+
+/// What two ranges have in common.
+fn both(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0].max(b[0]), a[1].min(b[1])]
+}

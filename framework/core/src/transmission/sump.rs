@@ -1,0 +1,231 @@
+//! The sump of a transmission: its space, walls, and the gears whose churning lifts oil out of it.
+
+use std::sync::Arc;
+
+use super::inside::Inside;
+use super::seats::GearSeat;
+use super::{DragModel, Oils};
+use crate::attach::{Level, Oil, State};
+use crate::immersion::Height;
+use crate::loss::{Loss, Undefined};
+use crate::real::Points;
+use crate::sump::{Lift, Lifted, Outline, Running, Space, Walls};
+use crate::transmission::Surface;
+
+/// The sump with the gears that lift oil.
+#[derive(Debug, Clone)]
+pub struct Sump {
+    space: Arc<Space>,
+    walls: Walls,
+    /// True if the inside is drawn; otherwise it is the hull of the gears.
+    drawn: bool,
+    sections: Vec<Outline>,
+    /// The upward direction, and the height of the datum along it. \[m\]
+    up: ([f64; 3], f64),
+    lifts: Vec<Lift>,
+    lifters: Vec<Lifter>,
+    /// Number of its oil.
+    pub(crate) oil: usize,
+    /// True if a component reads the level while rotating.
+    pub(crate) read: bool,
+}
+
+/// A churning model whose power lifts oil.
+#[derive(Debug, Clone)]
+struct Lifter {
+    drag: usize,
+    /// Number of its first lift; a pair has two in a row.
+    first: usize,
+    members: [usize; 2],
+    pair: bool,
+}
+
+impl Sump {
+    /// The sump of an inside with a level at rest, and the churning models of stationary or orbiting gears in it.
+    pub(crate) fn new(
+        inside: &Inside,
+        rest: f64,
+        oil: usize,
+        read: bool,
+        (gears, levels): (&[GearSeat], &[Level]),
+        drags: &[DragModel],
+    ) -> Self {
+        let mut lifts = Vec::new();
+        let mut lifters = Vec::new();
+        for (drag, model) in drags
+            .iter()
+            .enumerate()
+            .filter(|(_, model)| model.churning && !model.model.off)
+        {
+            let seat = &model.seat;
+            let own = if seat.pair { &seat.gears[..] } else { &seat.gears[..1] };
+            let found: Option<Vec<Lift>> = own
+                .iter()
+                .map(|gear| lift(&gears[*gear], levels[*gear], seat.count))
+                .collect();
+            if let Some(found) = found {
+                lifters.push(Lifter {
+                    drag,
+                    first: lifts.len(),
+                    members: seat.members,
+                    pair: seat.pair,
+                });
+                lifts.extend(found);
+            }
+        }
+        Self {
+            space: Arc::clone(&inside.space),
+            walls: inside.walls(rest),
+            drawn: inside.drawn,
+            sections: inside.sections.clone(),
+            up: inside.up,
+            lifts,
+            lifters,
+            oil,
+            read,
+        }
+    }
+
+    /// The oil space.
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// Where lifted oil runs down.
+    pub fn walls(&self) -> &Walls {
+        &self.walls
+    }
+
+    /// True if the inside is drawn; otherwise it is the hull of the gears.
+    pub fn is_drawn(&self) -> bool {
+        self.drawn
+    }
+
+    /// Sections of the oil space.
+    pub fn sections(&self) -> &[Outline] {
+        &self.sections
+    }
+
+    /// The part of a section below a level, at its middle along the shafts: corners as y and z. \[m\]
+    pub fn below(&self, section: &Outline, level: f64) -> Vec<[f64; 2]> {
+        let (up, datum) = self.up;
+        let middle = 0.5 * (section.range[0] + section.range[1]);
+        section.below(|[y, z]| up[0] * middle + up[1] * y + up[2] * z - datum, level)
+    }
+
+    /// The surface of a level between two values of y, at the middle of the sections along the shafts: points as y and z. \[m\]
+    pub fn surface(&self, level: f64, ends: [f64; 2]) -> [[f64; 2]; 2] {
+        let (up, datum) = self.up;
+        let ranges = self.sections.iter().flat_map(|section| section.range);
+        let (from, to) = (
+            ranges.clone().fold(f64::INFINITY, f64::min),
+            ranges.fold(f64::NEG_INFINITY, f64::max),
+        );
+        ends.map(|y| [y, (level + datum - up[0] * 0.5 * (from + to) - up[1] * y) / up[2]])
+    }
+
+    /// Number of gears that may lift oil.
+    pub(crate) fn lifts(&self) -> usize {
+        self.lifts.len()
+    }
+
+    /// The level of a volume. \[m3, m\]
+    pub(crate) fn level<R: Points>(&self, volume: R) -> R {
+        let level = R::each(|point| self.space.level(volume.at_point(point)));
+        let below = R::each(|point| self.space.volume(level.at_point(point))[0]);
+        let area = R::each(|point| self.space.volume(level.at_point(point))[1].max(0.0));
+        // One step of Newton's gives derivatives, where numbers have them.
+        let full = area.is_zero();
+        R::select(
+            full,
+            level,
+            level - (below - volume) / R::select(full, R::constant(1.0), area),
+        )
+    }
+
+    /// What each gear lifts by its churning loss.
+    pub(crate) fn lift<R: Points>(
+        &self,
+        drags: &[DragModel],
+        losses: &[Result<Loss<R>, Undefined>],
+        state: &State<'_, R>,
+        lifted: &mut [Lifted<R>],
+    ) {
+        for lifter in &self.lifters {
+            let model = &drags[lifter.drag];
+            let power = match &losses[lifter.drag] {
+                Ok(loss) => loss.total_watts(state.speeds[lifter.members[0]]) * (model.seat.count * model.loss_factor),
+                Err(_) => R::ZERO,
+            };
+            let rho = state.oils[model.oil as usize].rho;
+            let gears = lifter.first..lifter.first + if lifter.pair { 2 } else { 1 };
+            let depths = gears
+                .clone()
+                .map(|i| self.lifts[i].tip_dip(state.rest))
+                .fold(R::ZERO, |sum, depth| sum + depth);
+            let dry = depths.is_zero();
+            for (i, member) in gears.zip(lifter.members) {
+                // A pair shares its loss by immersion.
+                let share = self.lifts[i].tip_dip(state.rest) / R::select(dry, R::constant(1.0), depths);
+                let own = self.lifts[i].lifted(power * share, state.speeds[member], rho);
+                lifted[i] = own;
+            }
+        }
+    }
+
+    /// The balance of the sump at a point; the level at rest determines how much oil there is.
+    pub(crate) fn running<'a, R: Points>(
+        &'a self,
+        rest: R,
+        oils: &[Oil<R>],
+        lifted: &'a [Lifted<R>],
+    ) -> Running<'a, R> {
+        let volume = |point: usize| self.space.volume(rest.at_point(point));
+        let known = R::each(|point| rest.at_point(point));
+        // The volume over the level at rest, with derivatives.
+        let stock = R::each(|point| volume(point)[0]) + (rest - known) * R::each(|point| volume(point)[1]);
+        Running {
+            space: &self.space,
+            walls: &self.walls,
+            lifts: &self.lifts,
+            lifted,
+            rest,
+            stock,
+            nu: oils[self.oil].nu,
+        }
+    }
+}
+
+impl Oils {
+    /// The sump and the place in the band, if the level while rotating is estimated.
+    #[inline]
+    pub(crate) fn estimated(&self) -> Option<(&Sump, f64)> {
+        match (&self.sump, &self.surface()) {
+            (Some(sump), Surface::Estimated(place)) => Some((sump, *place)),
+            _ => None,
+        }
+    }
+}
+
+/// The lift of a gear in the sump; `None` for ring gears and gears in oil of their own.
+fn lift(gear: &GearSeat, level: Level, count: f64) -> Option<Lift> {
+    let Level::Sump { height, slope, orbit } = level else {
+        return None;
+    };
+    let [reference, tip, root] = gear.diameters.map(|diameter| 0.5 * diameter);
+    (!gear.ring && tip > root && root > 0.0).then_some(Lift {
+        height,
+        slope,
+        orbit,
+        radii: [tip, reference, root],
+        width: gear.facewidth * count,
+    })
+}
+
+impl<R: Points> State<'_, R> {
+    /// Oil height at rest above an axis, which churning laws use.
+    #[inline(always)]
+    pub(crate) fn level_at_rest(&self, level: Level) -> Height<R> {
+        self.height(level, self.rest)
+    }
+}

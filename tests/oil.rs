@@ -1,0 +1,140 @@
+//! Where the oil is: levels from volumes, the level that each law takes, and the band of the level while rotating.
+
+use crate::common::{file, language};
+use gearloss::api::{Choice, Gearbox, InMemory, Language};
+use gearloss_framework::evaluate::{LevelFrom, OilLevels, Point};
+use gearloss_framework::transmission::Transmission;
+use std::path::Path;
+
+/// The two-speed example with another description of its oil, bearings without oil heights of their own, and a churning law.
+fn built(language: &Language, oil: &str, churning: &str) -> Transmission {
+    let text = std::fs::read_to_string(file("examples/two-speed-ev/gearbox.yaml")).unwrap();
+    let text = text
+        .replace("volume: 1.2 l, level: -49 mm", oil)
+        .replace("{ type: iso14179_2, speed_of: pinion }", churning)
+        .replace("  bearing: { type: iso14179_2 }", "  bearing: { type: skf }")
+        .replace(", oil_height: 14 mm", "");
+    let files = InMemory::default().shared();
+    let gearbox = Gearbox::from_text(language, &files, &text, "gearbox.yaml", Path::new(""));
+    let gearbox = gearbox.unwrap_or_else(|found| panic!("{}", found.render()));
+    gearbox
+        .transmission(language, &Choice::default())
+        .unwrap_or_else(|found| panic!("{}", found.render()))
+}
+
+/// Levels, churning and bearing losses in first gear at a speed in rpm and an oil temperature in degC.
+fn at(t: &Transmission, speed: f64, temperature: f64) -> (Option<OilLevels>, f64, f64) {
+    let case = t.case("first", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let point = Point {
+        speeds: &[speed * std::f64::consts::PI / 30.0],
+        torques: &[10.0],
+        ..Point::default()
+    };
+    let solution = t.evaluate(&case, &point, &[temperature], &mut scratch);
+    let sum = |mechanism: &str| {
+        let parts = solution.parts().filter(|(part, _)| part.mechanism == mechanism);
+        parts.map(|(_, loss)| loss.watts()).sum::<f64>()
+    };
+    (solution.oil_levels(), sum("gear_drag"), sum("bearing"))
+}
+
+const LYON: &str = "{ type: changenet_2011 }";
+
+#[test]
+fn churning_takes_the_level_at_rest_and_bearings_the_one_while_rotating() {
+    let language = language();
+    let with = |running: &str| {
+        let oil = format!("volume: 1.2 l, level: 5 mm{running}");
+        at(&built(&language, &oil, LYON), 6000.0, 80.0)
+    };
+    let (still, low, high) = (
+        with(", running_level: at_rest"),
+        with(", running_level: -15 mm"),
+        with(", running_level: 0 mm"),
+    );
+    assert_eq!(
+        (still.1.to_bits(), low.1.to_bits()),
+        (high.1.to_bits(), high.1.to_bits())
+    );
+    assert!(low.2 < high.2 && high.2 < still.2, "{} {} {}", low.2, high.2, still.2);
+    let levels = low.0.unwrap();
+    assert_eq!(
+        (levels.from, levels.at_rest, levels.running),
+        (LevelFrom::Stated, 0.005, -0.015)
+    );
+    // The estimate is lower than at rest, and is used by default.
+    let estimated = with("");
+    let levels = estimated.0.unwrap();
+    assert_eq!(levels.from, LevelFrom::Estimated);
+    assert!(levels.running < levels.at_rest && estimated.2 < still.2);
+    // Without a churning law nothing is lifted.
+    let (levels, ..) = at(&built(&language, "volume: 1.2 l, level: 5 mm", "none"), 6000.0, 80.0);
+    let levels = levels.unwrap();
+    assert_eq!(levels.running.to_bits(), levels.at_rest.to_bits());
+}
+
+#[test]
+fn volume_and_level_follow_from_each_other() {
+    let language = language();
+    let filled = built(&language, "volume: 1.2 l", LYON);
+    // The hull of the gears with gaps of 8 and 12 mm, by a polygon of 720 chords per turn and halving.
+    let (cold, ..) = at(&filled, 0.0, 20.0);
+    let cold = cold.unwrap();
+    assert!((cold.at_rest + 30.967e-3).abs() < 0.1e-3, "{cold:?}");
+    assert!((cold.estimate.unwrap().volume - 1.2e-3).abs() < 1e-15);
+    let (hot, ..) = at(&filled, 0.0, 100.0);
+    assert!(hot.unwrap().at_rest > cold.at_rest + 1e-3);
+    assert_eq!(cold.running.to_bits(), cold.at_rest.to_bits());
+    let level = format!("level: {} mm", cold.at_rest * 1e3);
+    let (same, ..) = at(&built(&language, &level, LYON), 0.0, 100.0);
+    assert!((same.unwrap().estimate.unwrap().volume - 1.2e-3).abs() < 1e-12);
+    // What is in the circuit is not in the sump, and a dry sump has no level.
+    let (less, ..) = at(
+        &built(&language, "volume: 1.5 l, circuit_volume: 0.3 l", LYON),
+        0.0,
+        20.0,
+    );
+    assert!((less.unwrap().at_rest - cold.at_rest).abs() < 1e-12);
+    assert!(
+        at(&built(&language, "volume: 1.2 l, dry_sump: true", LYON), 6000.0, 80.0)
+            .0
+            .is_none()
+    );
+}
+
+#[test]
+fn oil_is_neither_lost_nor_made() {
+    let language = language();
+    let filled = built(&language, "volume: 1.2 l", LYON);
+    let space = filled.oil_space().unwrap().space();
+    for (speed, temperature) in [(1000.0, 0.0), (6000.0, 40.0), (12000.0, 80.0), (20000.0, 120.0)] {
+        let levels = at(&filled, speed, temperature).0.unwrap();
+        let estimate = levels.estimate.unwrap();
+        let kept = space.volume(levels.running)[0] + estimate.missing;
+        assert!((kept / estimate.volume - 1.0).abs() < 1e-11, "{speed} {levels:?}");
+        assert!(estimate.band.low() <= levels.running && levels.running <= estimate.band.high());
+    }
+}
+
+#[test]
+fn the_band_is_an_input() {
+    let language = language();
+    let with = |place: &str| {
+        let t = built(&language, &format!("volume: 1.9 l, running_band: {place}"), LYON);
+        let (levels, _, bearings) = at(&t, 8000.0, 60.0);
+        (levels.unwrap(), bearings)
+    };
+    let (low, middle, high) = (with("-1"), with("0"), with("1"));
+    let band = middle.0.estimate.unwrap().band;
+    assert_eq!(low.0.running, band.low());
+    assert_eq!(high.0.running, band.high());
+    assert!(low.0.running < middle.0.running && middle.0.running < high.0.running);
+    assert!(
+        low.1 < middle.1 && middle.1 < high.1,
+        "{} {} {}",
+        low.1,
+        middle.1,
+        high.1
+    );
+}
