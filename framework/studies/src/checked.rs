@@ -146,7 +146,7 @@ pub fn dry_bearings(checked: &CheckedGearbox) -> Vec<Diagnostic> {
     let from_sump = |path: &str| {
         let entry = &bearings[path.split('.').nth(1).unwrap_or_default()];
         let oil = &entry["lubricant"];
-        entry["oil_height"].is_null() && (oil.is_null() || oil == sump)
+        entry["oil_height"].is_null() && entry["lubrication"] != "grease" && (oil.is_null() || oil == sump)
     };
     let parts = t.parts().iter().enumerate();
     let parts = parts.filter(|(_, part)| part.mechanism == Bearing::KEY && from_sump(&part.path));

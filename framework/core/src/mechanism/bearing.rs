@@ -683,7 +683,8 @@ impl Component for Bearing {
         part.angular_row()
     }
     fn lowest(part: &BearingPart) -> Option<f64> {
-        part.oil_height.is_none().then_some(part.raceway)
+        let reads = part.oil_height.is_none() && part.lubrication != Lubrication::Grease;
+        reads.then_some(part.raceway)
     }
 
     fn name(part: &BearingPart) -> String {

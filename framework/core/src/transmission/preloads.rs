@@ -345,6 +345,7 @@ impl Preloading<'_> {
                 oils: &oils,
                 temperatures: &[temperature],
                 surface: f64::NEG_INFINITY,
+                rest: f64::NEG_INFINITY,
                 loads: &loads,
                 calls: &Cell::new(0),
             };
