@@ -50,9 +50,9 @@ fn every_field_is_written() {
         for field in form.groups.iter().flat_map(|group| &group.fields) {
             let typed = match field.kind {
                 FieldKind::Text if field.path == "title" => "Getriebe: \"neu\", #2".to_owned(),
+                _ if field.example.is_some_and(|example| !example.is_empty()) => field.example.unwrap().to_owned(),
                 FieldKind::Text | FieldKind::Number => "0.123".to_owned(),
                 FieldKind::Integer => "33".to_owned(),
-                _ if field.example.is_some_and(|example| !example.is_empty()) => field.example.unwrap().to_owned(),
                 FieldKind::Quantity => {
                     let (_, unit) = field.value.split_once(' ').unwrap();
                     format!("12.5 {unit}")
