@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use super::Case;
+use crate::common;
 
 const POINT: [&str; 4] = ["--torque", "0 Nm", "--speed", "1500 rpm"];
 const PRELOAD: &str = "preload: { force: 1000 N, distance: 120 mm, housing: { material: steel } }";
@@ -141,6 +142,47 @@ fn lost_preload_is_noted() {
     ] {
         assert!(said.text.contains(line), "{line}\n{}", said.text);
     }
+}
+
+/// Shaft and casing of `network: auto` have the temperatures of their nodes, which the friction under preload warms.
+#[test]
+fn a_network_has_the_temperatures() {
+    let case = Case::new("preloaded-bearings", "network");
+    let example = common::file("examples/industrial-reducer/gearbox.yaml");
+    case.write("reducer.yaml", std::fs::read_to_string(example).unwrap());
+    let solved = |closing: &str| -> Value {
+        let preload = format!("bearings.B1.preload={{ closing: {closing}, housing: {{ material: cast_iron }} }}");
+        let said = case.gearloss(&[
+            "solve",
+            "reducer.yaml",
+            "--torque",
+            "290 Nm",
+            "--speed",
+            "1480 rpm",
+            "--set",
+            "thermal={ mode: network, network: auto, ambient: 20 degC }",
+            "--set",
+            &preload,
+            "--format",
+            "json",
+        ]);
+        assert_eq!(said.code, Some(0), "{}", said.text);
+        serde_json::from_str(&said.text).unwrap()
+    };
+    let points = ["-120 um", "-80 um"].map(solved);
+    for point in &points {
+        let nodes = point["network"]["nodes"].as_array().unwrap();
+        for (key, name) in [("shaft_degc", "input"), ("housing_degc", "casing")] {
+            let node = nodes.iter().find(|node| node["node"] == name).unwrap();
+            let temperature = node["temperature_degc"].as_f64().unwrap();
+            assert!((number(point, key) - temperature).abs() < 1e-6, "{point}");
+        }
+    }
+    let [loose, tight] = &points;
+    assert!(tight["loss_w"].as_f64() > loose["loss_w"].as_f64());
+    assert!(number(tight, "shaft_degc") > number(loose, "shaft_degc"));
+    // The friction of the tighter pair closes it further.
+    assert!(number(tight, "closing_um") - number(loose, "closing_um") > 41.0);
 }
 
 #[test]

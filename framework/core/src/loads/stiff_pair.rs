@@ -277,7 +277,7 @@ mod tests {
             let pair = pair(&tapered());
             let own = |point: usize| 0.3 * (point / 2) as f64;
             // Every fourth is without radial loads, so that one bearing may be free.
-            let loaded = |point: usize| f64::from(u8::from(point % 4 != 0));
+            let loaded = |point: usize| f64::from(u8::from(!point.is_multiple_of(4)));
             let at = |x: f64| move |point: usize| x * own(point);
             let radials = radial.map(|load| move |point: usize| load * own(point) * loaded(point));
             let together = pair.axial(

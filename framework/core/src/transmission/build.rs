@@ -6,7 +6,7 @@ use super::gearing::gearing;
 use super::grease;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
-use super::oils::OilNumbers;
+use super::oils::{OilNumbers, Oils};
 use super::pairs::{BearingPair, Design};
 use super::planets::{self, Held};
 use super::plausible;
@@ -104,22 +104,11 @@ impl Transmission {
         let load_factors = load_factors(supports, ports, &mut found);
         let imported = imported_loads(entry, files, ports, &states, supports, &mut found);
         let (oils, mut more) = oils.finish();
-        let pairs = loads
-            .as_ref()
-            .filter(|_| found.is_empty() && more.is_empty())
-            .map(|loads| {
-                let preloading = Preloading {
-                    supports,
-                    designs: &designs,
-                    components: &models.components,
-                    nodes: &frame.nodes,
-                    oils: &oils,
-                    members: &members.names,
-                };
-                let pairs = BearingPair::all(loads, &preloading, &mut found);
-                warnings.extend(pairs.iter().flat_map(|pair| pair.warnings(&preloading)));
-                pairs
-            });
+        let can_pair = found.is_empty() && more.is_empty();
+        let pairs = loads.as_ref().filter(|_| can_pair).map(|loads| {
+            let of = (&models, &designs[..], &oils);
+            pairs(loads, &frame, of, &mut found, &mut warnings)
+        });
         classify(&mut found, codes::SUPPORT);
         classify(&mut more, codes::LUBRICANT);
         // Errors of an oil cause many of the later ones.
@@ -170,6 +159,27 @@ impl Transmission {
         memory.settle();
         Ok((built, memory))
     }
+}
+
+/// Opposed bearings that load each other; reports what is wrong with their preloads.
+fn pairs(
+    loads: &ShaftLoads,
+    frame: &Frame,
+    (models, designs, oils): (&Models, &[Design], &Oils),
+    found: &mut Vec<Diagnostic>,
+    warnings: &mut Vec<Diagnostic>,
+) -> Vec<BearingPair> {
+    let preloading = Preloading {
+        supports: &models.supports,
+        designs,
+        components: &models.components,
+        nodes: &frame.nodes,
+        oils,
+        members: &frame.members.names,
+    };
+    let pairs = BearingPair::all(loads, &preloading, found);
+    warnings.extend(pairs.iter().flat_map(|pair| pair.warnings(&preloading)));
+    pairs
 }
 
 fn in_document_order(resolved: &Resolved, mut parts: Vec<PartInfo>) -> Vec<PartInfo> {

@@ -303,28 +303,8 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
             add(what, grade, because, &transmission.supports()[bearing.support]);
         }
     }
-    for pair in transmission.pairs() {
-        let Some(preload) = &pair.preload else { continue };
-        let path = &transmission.supports()[preload.support];
-        add(
-            "stiffness of preloaded bearings".to_owned(),
-            if preload.is_estimated {
-                Evidence::Assumed
-            } else {
-                Evidence::Derived
-            },
-            if preload.is_estimated {
-                "the internal geometry is estimated"
-            } else {
-                "load integrals with the nominal contact angle, straight rollers, rigid rings, shaft and housing"
-            },
-            path,
-        );
-        let is_oil = |body: &BodyTemperature| matches!(body, BodyTemperature::AboveOil { .. });
-        if preload.temperatures.iter().any(is_oil) && preload.per_kelvin.iter().sum::<f64>() != 0.0 {
-            let because = "shaft or housing at the temperature of the oil";
-            add("temperatures of a preload".to_owned(), Evidence::Assumed, because, path);
-        }
+    for (what, grade, because, path) in of_preloads(transmission) {
+        add(what.to_owned(), grade, because, path);
     }
     let mut seen = HashSet::new();
     for (path, came) in &resolved.sources {
@@ -357,4 +337,27 @@ pub fn evidence(transmission: &Transmission, resolved: &Resolved, written: &dyn 
     }
     points.sort_by(|a, b| b.grade.cmp(&a.grade).then_with(|| a.what.cmp(&b.what)));
     points
+}
+
+/// Evidence of the preloads of pairs: what is graded, its grade and reason, the bearing.
+fn of_preloads(transmission: &Transmission) -> Vec<(&'static str, Evidence, &'static str, &str)> {
+    let mut graded = Vec::new();
+    for pair in transmission.pairs() {
+        let Some(preload) = &pair.preload else { continue };
+        let path = transmission.supports()[preload.support].as_str();
+        let (grade, because) = if preload.is_estimated {
+            (Evidence::Assumed, "the internal geometry is estimated")
+        } else {
+            let because =
+                "load integrals with the nominal contact angle, straight rollers, rigid rings, shaft and housing";
+            (Evidence::Derived, because)
+        };
+        graded.push(("stiffness of preloaded bearings", grade, because, path));
+        let is_oil = |body: &BodyTemperature| matches!(body, BodyTemperature::AboveOil { .. });
+        if preload.temperatures.iter().any(is_oil) {
+            let because = "shaft or housing at the temperature of the oil, or a stated difference from it";
+            graded.push(("temperatures of a preload", Evidence::Assumed, because, path));
+        }
+    }
+    graded
 }
