@@ -2,7 +2,9 @@
 //!
 //! The load integrals of Sjoevall depend on the load zone alone, so with rho = Fr tan a/Fa = J_r/J_a the displacement is
 //!
-//!     delta_a = (Fa/(Z K sin a))^(1/n) g(rho)/sin a,   g = (1 - 1/(2 eps)) J_a^(-1/n)
+//! ```text
+//! delta_a = (Fa/(Z K sin a))^(1/n) g(rho)/sin a,   g = (1 - 1/(2 eps)) J_a^(-1/n)
+//! ```
 //!
 //! with one function g for points and one for lines: g(0) = 1, zero where half of the elements carry, minus infinity at rho = 1, where one
 //! element carries all. (1 - rho)^(1 + 1/(2 n)) g is smooth and is interpolated by cubic pieces.
