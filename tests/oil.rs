@@ -2,6 +2,7 @@
 
 use crate::common::{file, language};
 use gearloss::api::{Choice, Gearbox, InMemory, Language};
+use gearloss::studies::checked::{CheckedGearbox, dry_bearings};
 use gearloss_framework::evaluate::{LevelFrom, OilLevels, Point};
 use gearloss_framework::transmission::Transmission;
 use std::path::Path;
@@ -78,11 +79,16 @@ fn churning_takes_the_level_at_rest_and_bearings_the_one_while_rotating() {
 fn volume_and_level_follow_from_each_other() {
     let language = language();
     let filled = built(&language, "volume: 1.2 l", LYON);
-    // The hull of the gears with gaps of 8 and 12 mm, by a polygon of 720 chords per turn and halving.
+    // An independent calculation: the hull of circles of 128 chords, 8 mm around the gears and 12 mm beside them, and halving.
     let (cold, ..) = at(&filled, 0.0, 20.0);
     let cold = cold.unwrap();
-    assert!((cold.at_rest + 30.967e-3).abs() < 0.1e-3, "{cold:?}");
-    assert!((cold.estimate.unwrap().volume - 1.2e-3).abs() < 1e-15);
+    assert!((cold.at_rest + 31.832606458278e-3).abs() < 1e-12, "{cold:?}");
+    let estimate = cold.estimate.unwrap();
+    assert!((estimate.volume - 1.2e-3).abs() < 1e-15 && !estimate.drawn);
+    assert!(
+        (estimate.band.low() - cold.at_rest).abs() < 1e-15,
+        "at standstill nothing falls: {estimate:?}"
+    );
     let (hot, ..) = at(&filled, 0.0, 100.0);
     assert!(hot.unwrap().at_rest > cold.at_rest + 1e-3);
     assert_eq!(cold.running.to_bits(), cold.at_rest.to_bits());
@@ -137,4 +143,29 @@ fn the_band_is_an_input() {
         middle.1,
         high.1
     );
+}
+
+#[test]
+fn bearings_that_no_oil_reaches_are_named() {
+    let check = |speed: &str| {
+        let text = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+        let text = text.replace("100 rpm", speed);
+        let (language, files) = (language(), InMemory::default().shared());
+        let gearbox = Gearbox::from_text(&language, &files, &text, "slow.yaml", Path::new("")).unwrap();
+        let resolved = gearbox.resolve(&language, &Choice::default()).unwrap();
+        let checked = CheckedGearbox::new(&language, gearbox, resolved).unwrap();
+        dry_bearings(&checked)
+    };
+    let found = check("100 rpm");
+    let paths: Vec<&str> = found.iter().map(|found| found.path.as_str()).collect();
+    assert_eq!(paths, ["bearings.left_in", "bearings.right_in", "bearings.left_out"]);
+    assert!(
+        found[0]
+            .message
+            .contains("the level is -38 mm, and the fastest gear in the oil has 0.219911 m/s of the 3 m/s"),
+        "{}",
+        found[0].message
+    );
+    // The wheel splashes.
+    assert!(check("1500 rpm").is_empty());
 }

@@ -2,8 +2,9 @@
 //!
 //! Source: Changenet, Velex: A model for the prediction of churning losses in geared transmissions, J. Mech. Des. 129 (2007)
 //! 128-133: T = 1/2 rho w^2 R^3 S_m C_m with C_m = 1.366 (h/D)^0.45 (V/D^3)^0.1 Fr^-0.6 Re^-0.21 below Re = w R b/nu = 6000 and
-//! 3.644 (h/D)^0.1 (V/D^3)^-0.35 Fr^-0.88 (b/D)^0.85 above 9000, linear in between.
-//! Immersion depth and volume are those at rest, as set before the tests (quoted from memory). For narrow gears at low speed it is up to four times `changenet_2011`, because only Re selects the regime.
+//! 3.644 (h/D)^0.1 (V/D^3)^-0.35 Fr^-0.88 (b/D)^0.85 above 9000, linear in between. Immersion depth and volume are those at rest,
+//! as set before the tests (quoted from memory). For narrow gears at low speed it is up to four times `changenet_2011`, because
+//! only Re selects the regime.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};

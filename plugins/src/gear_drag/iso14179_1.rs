@@ -2,12 +2,12 @@
 //!
 //! The report calls it windage and churning, but a gear that is not immersed loses nothing.
 //!
-//! Source: ISO/TR 14179-1:2001, quoted from memory: sides 1.474 f_g nu n^3 D^5.7/(A_g 1e26) and tooth surface
-//! 7.37 f_g nu n^3 D^4.7 b (R_f/sqrt(tan beta))/(A_g 1e26) in kW, nu in mm2/s, n in 1/min, lengths in mm;
-//! R_f = 7.93 - 4.648/m_t, beta at least 10 deg, A_g = 0.2. The immersion factor f_g rises from 0 without oil to 1 for a fully
-//! immersed gear, linear in the immersion depth of the tip circle at rest (assumed: the report has no other). The shaft losses of the report are not included. The loss grows
-//! with viscosity and the cube of speed: far below other laws for a thin oil, far above for a thick one at high speed. For
-//! industrial units; R_f is limited to zero for transverse modules below 0.586 mm.
+//! Source: ISO/TR 14179-1:2001, quoted from memory: sides 1.474 f_g nu n^3 D^5.7/(A_g 1e26) and tooth surface 7.37 f_g nu n^3 D^4.7
+//! b (R_f/sqrt(tan beta))/(A_g 1e26) in kW, nu in mm2/s, n in 1/min, lengths in mm; R_f = 7.93 - 4.648/m_t, beta at least 10 deg,
+//! A_g = 0.2. The immersion factor f_g rises from 0 without oil to 1 for a fully immersed gear, linear in the immersion depth of
+//! the tip circle at rest (assumed: the report has no other). The shaft losses of the report are not included. The loss grows with
+//! viscosity and the cube of speed: far below other laws for a thin oil, far above for a thick one at high speed. For industrial
+//! units; R_f is limited to zero for transverse modules below 0.586 mm.
 
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;

@@ -1,11 +1,11 @@
 //! Splash torque of an immersed gear stage according to ISO/TR 14179-2.
 //!
-//! Source: ISO/TR 14179-2:2001: T_H = C_Sp C_1 exp(C_2 v_t/10), C_1 = 0.063 (h_e1 + h_e2)/10 + 0.0128 (b/10)^3,
-//! C_2 = (h_e1 + h_e2)/800 + 0.2, C_Sp = (4 h_max/(3 h_C))^1.5 2 h_C/l_h with l_h = 4 A_G/U_M; lengths in mm, v_t in m/s.
-//! One horizontal stage, immersion depths of the tip circles at standstill (quoted from memory). The torque is independent of viscosity and does not vanish with
-//! speed. It must be multiplied by the speed of one shaft of the pair; sources differ on which one, so `speed_of` has no default.
-//! If the sump itself supplies the mesh (both gears immersed), C_Sp is one. Without immersion the b^3 term would remain; the loss
-//! is then set to zero. Not for face widths far above 100 mm, where the b^3 term becomes unrealistic.
+//! Source: ISO/TR 14179-2:2001: T_H = C_Sp C_1 exp(C_2 v_t/10), C_1 = 0.063 (h_e1 + h_e2)/10 + 0.0128 (b/10)^3, C_2 = (h_e1 +
+//! h_e2)/800 + 0.2, C_Sp = (4 h_max/(3 h_C))^1.5 2 h_C/l_h with l_h = 4 A_G/U_M; lengths in mm, v_t in m/s. One horizontal stage,
+//! immersion depths of the tip circles at standstill (quoted from memory). The torque is independent of viscosity and does not
+//! vanish with speed. It must be multiplied by the speed of one shaft of the pair; sources differ on which one, so `speed_of` has
+//! no default. If the sump itself supplies the mesh (both gears immersed), C_Sp is one. Without immersion the b^3 term would
+//! remain; the loss is then set to zero. Not for face widths far above 100 mm, where the b^3 term becomes unrealistic.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};

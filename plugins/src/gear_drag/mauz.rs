@@ -5,7 +5,8 @@
 //! hundred times too small. K_0 = 1.86e3 with eta_0 = 1 mPa s is the only interpretation found that gives the stated level, a third
 //! to all of ISO/TR 14179-2. The scale is therefore reconstructed: identify `k_0`. The functions of wall distance and oil volume
 //! are not public; they are user-defined factors that apply above 10 m/s if the gap is below 1.3 tip radii (or not stated). A_B is
-//! the wetted surface of faces and rim at the tip circle, with the level at rest (assumed: the thesis was not readable). For modules of 3 to 6 mm.
+//! the wetted surface of faces and rim at the tip circle, with the level at rest (assumed: the thesis was not readable). For
+//! modules of 3 to 6 mm.
 
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;

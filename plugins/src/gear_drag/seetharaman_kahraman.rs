@@ -1,10 +1,11 @@
 //! Rim and faces of one immersed gear according to Seetharaman and Kahraman, without oil in the root spaces.
 //!
-//! Source: Seetharaman, Kahraman: Load-independent spin power losses of a spur gear pair, J. Tribol. 131 (2009), partly quoted from memory:
-//! P_rim = 4 eta b r_o^2 w^2 phi; each face 0.41 rho nu^0.5 U^2.5 A/sqrt(r_o sin phi) to Re = 2 r_o sin phi U/nu = 1e5,
+//! Source: Seetharaman, Kahraman: Load-independent spin power losses of a spur gear pair, J. Tribol. 131 (2009), partly quoted from
+//! memory: P_rim = 4 eta b r_o^2 w^2 phi; each face 0.41 rho nu^0.5 U^2.5 A/sqrt(r_o sin phi) to Re = 2 r_o sin phi U/nu = 1e5,
 //! 0.025 rho nu^0.14 U^2.86 A/(r_o sin phi)^0.14 from 1e6, blended in lg Re between; phi = acos(1 - h/r_o), U = w r_o, A the
 //! immersed area of a face. The laminar constant is that of a flat plate. The root filling and pocketing terms are missing, so the
-//! model is incomplete; with the level at rest (quoted from memory), at high speed it overpredicts measurements by far, because oil is thrown off. For research.
+//! model is incomplete; with the level at rest (quoted from memory), at high speed it overpredicts measurements by far, because oil
+//! is thrown off. For research.
 
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;

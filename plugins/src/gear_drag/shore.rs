@@ -1,12 +1,11 @@
 //! Churning of one gear in a cylindrical case, from inertia run-down tests up to 90 m/s.
 //!
-//! Source: Shore, Kadiric et al.: Optimization of electric vehicle drivetrain fluid, Tribol. Trans., equations 7 and 8:
-//! C = 0.38 rho nu^0.05 R_a^8.51 R_p^-5.90 b^0.20 d_r^0.08 d_x^0.34 h_eff^1.10 w^0.81 g^0.57 in N m, SI throughout, with
-//! h_eff = h_0 (phi + (1 - phi) tanh(0.2 + Re^0.4/Fr)), Re = w R_p^2/nu, Fr = w^2 R_p/g, g = 9.8. Dimensionally exact.
-//! The exponents of R_a and R_p make it sensitive to tooth height: a change of one percent in R_a/R_p changes the torque by eight
-//! percent, so the radii must be exact. Immersion depth at the reference circle, at rest: h_0 is printed as the initial depth, and h_eff
-//! contains how the level falls. Single gear; the source does not state whether d_x
-//! is the gap of one side or both; one side is assumed.
+//! Source: Shore, Kadiric et al.: Optimization of electric vehicle drivetrain fluid, Tribol. Trans., equations 7 and 8: C = 0.38
+//! rho nu^0.05 R_a^8.51 R_p^-5.90 b^0.20 d_r^0.08 d_x^0.34 h_eff^1.10 w^0.81 g^0.57 in N m, SI throughout, with h_eff = h_0 (phi +
+//! (1 - phi) tanh(0.2 + Re^0.4/Fr)), Re = w R_p^2/nu, Fr = w^2 R_p/g, g = 9.8. Dimensionally exact. The exponents of R_a and R_p
+//! make it sensitive to tooth height: a change of one percent in R_a/R_p changes the torque by eight percent, so the radii must be
+//! exact. Immersion depth at the reference circle, at rest: h_0 is printed as the initial depth, and h_eff contains how the level
+//! falls. Single gear; the source does not state whether d_x is the gap of one side or both; one side is assumed.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};

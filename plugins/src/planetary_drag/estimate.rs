@@ -1,9 +1,10 @@
 //! A first estimate of the drag of carrier and planets, from gear churning and disc friction.
 //!
 //! Source: none. Published laws for planetary sets (Kettler; Höhn) were not available. The planets are treated as gears that rotate
-//! at their speed in the housing frame, with the mean immersion depth over the orbit at rest, as churning laws take it; the drag of their orbital motion is
-//! neglected. The carrier is treated as discs in oil with the disc friction of Diab et al. 2004 (J. Mech. Des. 126, 903-908), P =
-//! 1/2 C_f rho w^3 R^5 for both faces, times the oil-covered share of the faces. Expect a factor of three in either direction.
+//! at their speed in the housing frame, with the mean immersion depth over the orbit at rest, as churning laws take it; the drag of
+//! their orbital motion is neglected. The carrier is treated as discs in oil with the disc friction of Diab et al. 2004 (J. Mech.
+//! Des. 126, 903-908), P = 1/2 C_f rho w^3 R^5 for both faces, times the oil-covered share of the faces. Expect a factor of three
+//! in either direction.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::immersion::{dip, orbiting_dip};

@@ -134,7 +134,9 @@ pub fn film<R: Real>(flow: R, nu: R) -> R {
 /// Effective over static depth after Shore: filled share of the case, speed (rad/s), reference radius (m), viscosity (m2/s). \[-\]
 #[inline]
 pub fn effective_share<R: Real>(fill: R, omega: R, radius: f64, nu: R) -> R {
-    let froude = (omega * omega * (radius / SHORE_G)).at_least(1e-9);
+    // At standstill the depth is the static one.
+    let omega = omega.at_least(1e-3);
+    let froude = omega * omega * (radius / SHORE_G);
     let reynolds = omega * (radius * radius) / nu;
     // Beyond 20 the hyperbolic tangent is one.
     let x = (reynolds.power(0.4) / froude + 0.2).at_most(20.0);
@@ -168,7 +170,7 @@ impl<R: Real> Band<R> {
     pub fn at(&self, place: f64) -> R {
         let central = self.films[1];
         let end = if place < 0.0 { self.low() } else { self.high() };
-        central + (end - central) * place.abs()
+        end * place.abs() + central * (1.0 - place.abs())
     }
 }
 

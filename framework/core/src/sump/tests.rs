@@ -313,6 +313,8 @@ proptest! {
         if v <= 1.5 {
             prop_assert_eq!(central, rest);
         }
+        let (still, ..) = estimates(0.0, 0.0, nu, stock);
+        prop_assert!(still.films == [rest; 3] && (still.effective - rest).abs() < 1e-15, "{:?}", still);
         let (more, ..) = estimates(v.max(1e-3), 1.1 * power, nu, stock);
         prop_assert!(more.films[1] <= central + 1e-12);
     }
