@@ -135,14 +135,10 @@ fn the_band_is_an_input() {
     let band = middle.0.estimate.unwrap().band;
     assert_eq!(low.0.running, band.low());
     assert_eq!(high.0.running, band.high());
-    assert!(low.0.running < middle.0.running && middle.0.running < high.0.running);
-    assert!(
-        low.1 < middle.1 && middle.1 < high.1,
-        "{} {} {}",
-        low.1,
-        middle.1,
-        high.1
-    );
+    // Where full tooth spaces bound all film estimates, the usual one is an end of the band.
+    assert!(low.0.running <= middle.0.running && middle.0.running <= high.0.running);
+    assert!(low.1 <= middle.1 && middle.1 <= high.1);
+    assert!(low.0.running < high.0.running && low.1 < high.1, "{low:?} {high:?}");
 }
 
 #[test]

@@ -371,7 +371,7 @@ fn models_lists_explains_and_finds_needs() {
     assert_eq!(out(&["models", "seal", "constant", "--checks"]), "no check values\n");
     let needs = out(&["models", "--needs", GEARBOX]);
     assert!(
-        needs.contains("housing.oil.volume") && needs.contains("assumed") && needs.contains("derived (catalogue 6303"),
+        needs.contains("housing.section") && needs.contains("assumed") && needs.contains("derived (catalogue 6303"),
         "{needs}"
     );
     assert!(

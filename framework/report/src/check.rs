@@ -82,8 +82,10 @@ pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
             found.component, found.rating
         ));
     }
-    for found in dry_bearings(checked) {
-        text.push_str(&format!("  {}: {}\n", found.path, found.message));
+    let dry = dry_bearings(checked);
+    if let Some(found) = dry.first() {
+        let paths: Vec<&str> = dry.iter().map(|found| found.path.as_str()).collect();
+        text.push_str(&format!("  {}: {}\n", paths.join(", "), found.message));
     }
     for line in remarks(resolved, &checked.changed, &checked.evidence) {
         text.push_str(&format!("  {line}\n"));
