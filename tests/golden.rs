@@ -12,15 +12,18 @@ use gearloss_studies::analyses::progress::Silent;
 use gearloss_studies::checked_study::CheckedStudy;
 
 /// Cases of more than one mistake.
-const SEVERAL: [&str; 12] = [
+const SEVERAL: [&str; 15] = [
     "anchors",
     "boolean_traps",
     "dangling_id",
     "decimal_comma",
+    "doubtful_oil_network",
     "drag_counted_twice",
     "network_unknown_gear",
     "network_unknown_nodes",
     "number_as_text",
+    "oil_network_cut_off",
+    "oil_network_faults",
     "out_of_range",
     "over_determined",
     "plain_bearing_faults",

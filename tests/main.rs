@@ -48,6 +48,7 @@ mod mutated;
 mod network;
 mod new;
 mod oil;
+mod oil_network;
 mod oils;
 mod optimise;
 mod peers;

@@ -45,6 +45,31 @@ fn a_point_allocates_nothing() {
 }
 
 #[test]
+fn an_oil_network_allocates_nothing() {
+    let language = language();
+    let gearbox = Gearbox::read(&language, &file("tests/oil_network/gearbox.yaml")).unwrap();
+    let t = gearbox.transmission(&language, &Choice::default()).unwrap();
+    let case = t.case("only", &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let mut over_speeds = || {
+        for i in 0..100 {
+            let point = Point {
+                speeds: &[60.0 * f64::from(i) * RPM],
+                torques: &[40.0],
+                ..Point::default()
+            };
+            assert!(
+                t.evaluate(&case, &point, &[f64::from(i)], &mut scratch)
+                    .loss()
+                    .is_some()
+            );
+        }
+    };
+    over_speeds();
+    assert_eq!(allocation_counter::measure(over_speeds).count_total, 0);
+}
+
+#[test]
 fn pairs_of_bearings_allocate_nothing() {
     let language = language();
     let layout = file("framework/workbench/src/form/layouts/three-stage.yaml");

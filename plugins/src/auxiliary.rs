@@ -2,4 +2,5 @@
 
 pub mod constant_power;
 pub mod pump;
+pub mod rotating_channel;
 pub mod wilson;

@@ -8,6 +8,7 @@ pub mod dawson;
 pub mod diab;
 pub mod dimensional;
 mod dipping;
+mod injected;
 pub mod iso14179_1;
 pub mod iso14179_2;
 pub mod maurer;

@@ -21,7 +21,9 @@ pub use preload::{BodyMaterial, PreloadBody, PreloadEntry};
 pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
 
 use crate::codes;
+use crate::description::PocketEntry;
 use crate::document::{Diagnostic, did_you_mean};
+use crate::hydraulics::{Supplies, Supply};
 use crate::immersion::Height;
 use crate::loads::SupportLoad;
 use crate::real::Points;
@@ -147,6 +149,8 @@ pub struct Spot {
     pub oil: u16,
     /// How the oil height above the component's axis is computed.
     pub level: Level,
+    /// Number of the element of the oil network that its model names.
+    pub supply: Option<u16>,
 }
 
 /// Oil height above an axis.
@@ -180,6 +184,8 @@ pub struct State<'a, R = f64> {
     pub surface: R,
     /// The same at rest, for churning laws. \[m\]
     pub rest: R,
+    /// What the oil network supplies.
+    pub supplies: Supplies<'a, R>,
     /// Loads of the supports.
     pub loads: &'a [SupportLoad<R>],
     /// Number of loss model evaluations.
@@ -210,6 +216,12 @@ impl<'a, R: Points> State<'a, R> {
     #[inline]
     pub fn oil(&self, spot: &Spot) -> &'a Oil<R> {
         &self.oils[spot.oil as usize]
+    }
+
+    /// What flows through an element of the oil network; nothing without one.
+    #[inline(always)]
+    pub fn supply(&self, element: Option<u16>) -> Supply<R> {
+        element.map_or_else(Supply::default, |element| self.supplies.elements[element as usize])
     }
 
     /// Oil height above the axis at a spot.
@@ -262,6 +274,17 @@ pub struct SeatedClearance {
     pub between: [Option<u16>; 2],
 }
 
+/// The pocket of a bearing as described, with the number of its oil.
+#[derive(Debug, Clone)]
+pub struct SeatedPocket {
+    /// Path of the bearing.
+    pub path: String,
+    /// Entry as written.
+    pub entry: PocketEntry,
+    /// Number of its oil; after the spot of the bearing was found.
+    pub oil: u16,
+}
+
 /// Assigns a number to an oil by lubricant and temperature offset, and computes how high a place is.
 pub trait Places {
     /// Number of the oil of a lubricant with an offset; `None` and reported if the lubricant does not exist.
@@ -270,17 +293,26 @@ pub trait Places {
     fn level(&self, member: Option<u16>, at: f64) -> Level;
 }
 
+/// Supports, clearances and pockets in the order in which they were placed.
+#[derive(Debug)]
+pub(crate) struct Seated {
+    pub supports: Vec<SeatedSupport>,
+    pub clearances: Vec<SeatedClearance>,
+    pub pockets: Vec<SeatedPocket>,
+}
+
 /// The names that a component may use while it is placed. Collects supports, clearances and findings.
 pub struct Names<'a> {
     members: &'a [(String, Option<u16>)],
     places: &'a mut dyn Places,
     supports: Vec<SeatedSupport>,
     clearances: Vec<SeatedClearance>,
+    pockets: Vec<SeatedPocket>,
     findings: Vec<Diagnostic>,
     path: String,
     id: String,
     site: (Option<u16>, f64),
-    level: Option<f64>,
+    level: Option<Level>,
 }
 
 impl<'a> Names<'a> {
@@ -291,6 +323,7 @@ impl<'a> Names<'a> {
             places,
             supports: Vec::new(),
             clearances: Vec::new(),
+            pockets: Vec::new(),
             findings: Vec::new(),
             path: String::new(),
             id: String::new(),
@@ -341,8 +374,17 @@ impl<'a> Names<'a> {
         self.site = (member, at);
     }
 
-    fn own_level(&mut self, level: Option<f64>) {
+    fn own_level(&mut self, level: Option<Level>) {
         self.level = level;
+    }
+
+    fn add_pocket(&mut self, entry: &PocketEntry) -> u16 {
+        self.pockets.push(SeatedPocket {
+            path: self.path.clone(),
+            entry: *entry,
+            oil: 0,
+        });
+        (self.pockets.len() - 1) as u16
     }
 
     fn add_support(&mut self, inner: u16, outer: Option<u16>, place: &SupportPlace) -> u16 {
@@ -368,8 +410,15 @@ impl<'a> Names<'a> {
         let oil = self.places.oil(&self.path, common)?;
         let level = self
             .level
-            .map_or_else(|| self.places.level(self.site.0, self.site.1), Level::Own);
-        Some(Spot { oil, level })
+            .unwrap_or_else(|| self.places.level(self.site.0, self.site.1));
+        if let Some(pocket) = self.pockets.last_mut().filter(|pocket| pocket.path == self.path) {
+            pocket.oil = oil;
+        }
+        Some(Spot {
+            oil,
+            level,
+            supply: None,
+        })
     }
 
     /// Adds a finding.
@@ -377,9 +426,14 @@ impl<'a> Names<'a> {
         self.findings.push(finding);
     }
 
-    /// Supports, clearances and findings.
-    pub fn finish(self) -> (Vec<SeatedSupport>, Vec<SeatedClearance>, Vec<Diagnostic>) {
-        (self.supports, self.clearances, self.findings)
+    /// What was placed, and findings.
+    pub(crate) fn finish(self) -> (Seated, Vec<Diagnostic>) {
+        let seated = Seated {
+            supports: self.supports,
+            clearances: self.clearances,
+            pockets: self.pockets,
+        };
+        (seated, self.findings)
     }
 }
 

@@ -77,6 +77,9 @@ gearloss_document::codes! {
     NO_HEAT_PATH = "E0403", "node without a heat path",
         cause: "No path leads from a node to a fixed temperature, or oil flows in a loop without heat capacity.",
         help: "Add a link or a capacity.";
+    OIL_NETWORK = "E0404", "invalid oil network",
+        cause: "Elements of the oil network are not joined to a pump or to the sump, or their values contradict each other.",
+        help: "Join them, or correct the values; [the page](oil-network.md) shows a complete network.";
     PLAUSIBILITY = "W0301", "probably wrong description",
         cause: "The description is valid, but a value is unusual enough to be a mistake.",
         help: "Check the value. If it is intended, no change is needed.";
@@ -110,4 +113,8 @@ gearloss_document::codes! {
         cause: "Level and volume of the oil contradict each other, the level at rest is not known, the oil covers a shaft seal, or it reaches a bearing \
                 neither at its level nor by splashing.",
         help: "Correct the level, the volume or the inside of the housing, or state how the part gets its oil.";
+    OIL_SUPPLY = "W0315", "a pump or consumer has too little oil",
+        cause: "At the rated speed, the inlet of a pump is in air or its pressure is too low, a relief valve never closes, a consumer has no flow, or a \
+                chamber floods.",
+        help: "Change the pump, the pipe or the nozzle that the message names.";
 }

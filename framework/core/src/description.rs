@@ -7,6 +7,7 @@ pub mod gears;
 pub mod housing;
 pub mod lubricant;
 pub mod network;
+pub mod oil_network;
 pub mod plausibility;
 pub mod shafts;
 pub mod states;
@@ -24,6 +25,7 @@ pub use housing::{
 };
 pub use lubricant::{Consistency, GreaseEntry, LubricantEntry};
 pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
+pub use oil_network::{HoleEntry, OilNetworkEntry, PocketEntry};
 pub use plausibility::PlausibilityEntry;
 pub use shafts::{LoadEntry, SectionEntry, ShaftEntry, Unsupported};
 pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, TorqueShare};
@@ -87,6 +89,8 @@ pub struct GearboxEntry {
     /// Housing and its oil.
     #[serde(default)]
     pub housing: HousingEntry,
+    /// Pumps, pipes and nozzles: flows and pressures of the oil.
+    pub oil_network: Option<OilNetworkEntry>,
     /// Operating temperature.
     #[serde(default)]
     pub thermal: Thermal,

@@ -4,6 +4,7 @@ mod batch;
 mod derive;
 mod grip;
 mod oil_level;
+mod oil_supply;
 mod ratings;
 mod readings;
 mod scratch;
@@ -13,6 +14,7 @@ mod solution;
 pub use batch::{Batch, BatchScratch, Block};
 pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
 pub use oil_level::{LevelEstimate, LevelFrom, OilLevels};
+pub use oil_supply::{ChamberLevel, ElementFlow, OilSupply, PocketLevel, SupplyFinding};
 pub use ratings::{ComponentRating, Ratings};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
@@ -23,6 +25,7 @@ pub use solution::{PartLoss, PreloadAt, Solution};
 
 use crate::attach::{Oil, State};
 use crate::flow::{Balance, Drive, FlowState, Outcome, Start, Status, Tolerance};
+use crate::hydraulics::Inputs;
 use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
 use crate::mechanism::Answers;
@@ -196,6 +199,14 @@ impl Transmission {
         // Until the drag of the gears is known, no oil is lifted.
         c.surface = self.oils.running(&c.speeds, c.rest);
         self.write_closings(&c.temperatures, &c.oils, &mut m.closings);
+        self.hydraulics.solve(
+            &Inputs {
+                speeds: &c.speeds,
+                oils: &c.oils,
+                surface: c.surface,
+            },
+            &mut c.hydraulics,
+        );
         c.forget();
         s.called += c.calls.replace(0);
         c.loads.fill(SupportLoad::default());
@@ -515,6 +526,7 @@ impl Transmission {
             nu: oil.nu,
             eta: oil.eta,
             rho: oil.rho,
+            injected: state.supply(drag.supply).flow.max(R::ZERO),
             notes: book.notes(drag.model.notes),
         }
     }

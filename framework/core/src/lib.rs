@@ -85,6 +85,7 @@ mod registration;
 // What models and the solver calculate with: numbers, teeth, contacts, rolling bearings, oils, motors.
 pub mod contact;
 pub mod geometry;
+pub mod hydraulics;
 pub mod immersion;
 pub mod lubricant;
 pub mod motor;

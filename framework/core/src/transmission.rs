@@ -9,6 +9,7 @@ mod grease;
 mod inside;
 mod members;
 mod nodes;
+mod oil_network;
 mod oils;
 mod pairs;
 mod planets;
@@ -45,6 +46,7 @@ pub(crate) use planets::Sharing;
 
 use crate::description::{RatingEntry, ThermalMode};
 use crate::document::Diagnostic;
+use crate::hydraulics::Hydraulics;
 use crate::loads::{ShaftLoads, StaticRating};
 use crate::loss::NoteBase;
 use crate::mechanism::Slot;
@@ -118,6 +120,8 @@ pub(crate) struct DragModel {
     pub part: Arc<DragPart>,
     pub model: Slot<GearDrag>,
     pub oil: u16,
+    /// Number of the element of the oil network that the model names.
+    pub supply: Option<u16>,
     /// Factor on the loss of the model.
     pub loss_factor: f64,
     /// True if the model covers churning.
@@ -200,6 +204,7 @@ pub struct Transmission {
     /// Opposed bearings that load each other.
     pub(crate) pairs: Vec<BearingPair>,
     pub(crate) oils: Oils,
+    pub(crate) hydraulics: Hydraulics,
     pub(crate) loads: Arc<ShaftLoads>,
     /// Load correction factors of each support; empty if all are one.
     pub(crate) load_factors: Vec<statics::LoadFactors>,
@@ -324,6 +329,10 @@ impl Transmission {
     /// The sump, if the oil space and a level are known.
     pub fn oil_space(&self) -> Option<&Sump> {
         self.oils.sump.as_ref()
+    }
+    /// The network of oil flows; empty without one.
+    pub fn hydraulics(&self) -> &Hydraulics {
+        &self.hydraulics
     }
     /// The thermal network.
     pub fn network(&self) -> Option<&Network> {

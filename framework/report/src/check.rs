@@ -60,7 +60,7 @@ pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
         resolved, transmission, ..
     } = checked;
     let mut text = String::new();
-    for warning in &transmission.warnings {
+    for warning in transmission.warnings.iter().chain(&checked.short_of_oil()) {
         text.push_str(&checked.gearbox.sources.render(warning));
         text.push_str("\n\n");
     }

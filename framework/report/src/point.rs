@@ -5,6 +5,7 @@ mod explain;
 mod explained;
 mod network;
 mod oil;
+mod oil_network;
 mod pair;
 mod ratings;
 mod record;
@@ -25,6 +26,8 @@ use explain::{explain_heat_path, explain_part};
 pub use explained::Explained;
 use network::network_blocks;
 use oil::oil_level_text;
+pub use oil_network::flow_rows;
+use oil_network::oil_blocks;
 use ratings::explain_ratings;
 pub use ratings::{rating_lines, ratings_blocks, ratings_text};
 pub use record::PointRecord;
@@ -189,6 +192,7 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
         blocks.text(&locking_text(locking));
     }
     blocks.text(&oil_level_text(solution.oil_levels()));
+    blocks.append(oil_blocks(solution));
     blocks.append(temperature_blocks(transmission, found));
     blocks.text(&outside_ranges(solved));
     blocks

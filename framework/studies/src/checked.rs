@@ -17,7 +17,7 @@ use gearloss_framework::resolve::{Choice, Resolved};
 use gearloss_framework::sump::LEAST_SPLASH;
 use gearloss_framework::transmission::Transmission;
 
-use crate::analyses::numbers::significant;
+use crate::analyses::numbers::{RPM, significant};
 use crate::points::{Note, STATIC_SAFETY, WeakPoint, evidence, merge, notes};
 use crate::ratings::{RatedQuantity, rated};
 
@@ -93,8 +93,15 @@ impl CheckedGearbox {
         let dry = dry_bearings(self)
             .into_iter()
             .map(|warning| self.gearbox.places.place(warning));
+        let supply = self.short_of_oil();
         let built = self.transmission.warnings.iter().cloned();
-        built.chain(overloaded).chain(outside).chain(dry).collect()
+        built.chain(overloaded).chain(outside).chain(dry).chain(supply).collect()
+    }
+
+    /// What the oil network lacks at the rated speed and at a tenth of it, with places.
+    pub fn short_of_oil(&self) -> Vec<Diagnostic> {
+        let found = short_of_oil(&self.transmission).into_iter();
+        found.map(|warning| self.gearbox.places.place(warning)).collect()
     }
 
     /// The lowest grade of evidence.
@@ -125,6 +132,63 @@ pub fn at_the_rating(t: &Transmission, mut each: impl FnMut(&Solution<'_>)) -> V
         merge(&mut seen, &scratch.totals);
     }
     seen
+}
+
+/// Part of the rated speed at which a relief valve that is still open never closes.
+const SLOW: f64 = 0.1;
+
+/// What the oil network lacks at the rated speed and at a tenth of it, in any gear, without torque.
+fn short_of_oil(t: &Transmission) -> Vec<Diagnostic> {
+    let Some(rating) = t.rating.filter(|_| !t.hydraulics().elements.is_empty()) else {
+        return Vec::new();
+    };
+    let mut found: Vec<Diagnostic> = Vec::new();
+    // Smallest flow through each relief valve while its pump runs.
+    let mut relieved: Vec<Option<f64>> = vec![None; t.hydraulics().elements.len()];
+    for (i, state) in t.states().iter().enumerate() {
+        let Some(case) = t.case_at_reference(i) else { continue };
+        let mut scratch = t.scratch(&case);
+        let torques = vec![0.0; case.torque_ports.len()];
+        for speed in [rating.speed, SLOW * rating.speed] {
+            let point = Point {
+                speeds: &[speed],
+                torques: &torques,
+                flow: PowerFlow::Ideal,
+                ..Point::default()
+            };
+            let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
+            let Some(supply) = solution.oil_supply() else { continue };
+            for (least, element) in relieved.iter_mut().zip(&supply.elements) {
+                if let Some(flow) = element.relieved.filter(|_| element.flow > 0.0) {
+                    *least = Some(least.map_or(flow, |least: f64| least.min(flow)));
+                }
+            }
+            for finding in supply.findings {
+                if found.iter().all(|known| known.path != finding.path) {
+                    let place = format!("at {} rpm in `{}`", significant(speed * RPM), state.name);
+                    found.push(
+                        Diagnostic::warning(finding.path, format!("{place}: {}", finding.message))
+                            .help(finding.help)
+                            .code(codes::OIL_SUPPLY),
+                    );
+                }
+            }
+        }
+    }
+    for (element, flow) in t.hydraulics().elements.iter().zip(relieved) {
+        if let Some(flow) = flow.filter(|flow| *flow > 0.0) {
+            let message = format!(
+                "its relief valve passes at least {} l/min, even at a tenth of the rated speed: it never closes",
+                significant(flow * 6e4)
+            );
+            found.push(
+                Diagnostic::warning(element.path.clone(), message)
+                    .help("use a smaller pump or a higher opening pressure, or check nozzles and pipes")
+                    .code(codes::OIL_SUPPLY),
+            );
+        }
+    }
+    found
 }
 
 /// Bearings with insufficient static safety at the rated torque and speed, in any gear, in drive and coast.

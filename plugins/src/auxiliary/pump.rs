@@ -2,7 +2,8 @@
 //!
 //! Source: P = dp Q/eta (textbook; ISO/TR 14179-1 uses it with about 0.85). Either with a flow that is independent of speed, as
 //! behind a flow regulator, or with a displacement per turn: T = dp V_g/(2 pi eta_hm), with the flow n V_g eta_vol for information.
-//! All of the power heats the oil if the pressure is throttled inside the gearbox.
+//! All of the power heats the oil if the pressure is throttled inside the gearbox. A pump of the oil network, named by `pump`, has its
+//! displacement and pressure rise from there.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
@@ -20,9 +21,12 @@ observed! { FLOW = ("Q", "l/min", "flow that the pump delivers"); }
 /// Oil pump from pressure, flow or displacement, and efficiency.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
+    /// Pump of the oil network that gives pressure and displacement, instead of `pressure`, `flow` and `displacement`.
+    #[schemars(extend("x-refers-to" = "oil_network.pumps"))]
+    pub pump: Option<String>,
     /// Pressure rise. [bar]
     #[schemars(range(min = 0.0, max = 500.0))]
-    pub pressure: f64,
+    pub pressure: Option<f64>,
     /// Flow at any speed, instead of a displacement. [l/min]
     #[schemars(range(min = 0.0, max = 10000.0))]
     pub flow: Option<f64>,
@@ -54,18 +58,36 @@ fn default_least_speed() -> f64 {
 enum Pump {
     Flow { power: f64, flow: f64, least_speed: f64 },
     Displacement { moment: f64, per_radian: f64 },
+    Network { efficiency: f64 },
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Pump, Diagnostic> {
     let turn = 2.0 * std::f64::consts::PI;
+    if let Some(pump) = &params.pump {
+        if params.pressure.is_some() || params.flow.is_some() || params.displacement.is_some() {
+            return Err(cx
+                .error(format!("the oil network states pressure and flow of `{pump}`"))
+                .help("remove `pressure`, `flow` and `displacement`, or `pump`"));
+        }
+        cx.oil_element("pumps", pump)?;
+        cx.leave_unused(["volumetric_efficiency", "least_speed"]);
+        return Ok(Pump::Network {
+            efficiency: params.efficiency,
+        });
+    }
+    let Some(pressure) = params.pressure else {
+        return Err(cx
+            .error("pump requires a pressure")
+            .help("write `pressure: 5 bar`, or name a pump of the oil network: `pump: main`"));
+    };
     match (params.flow, params.displacement) {
         (Some(flow), None) => Ok(Pump::Flow {
-            power: params.pressure * flow / params.efficiency,
+            power: pressure * flow / params.efficiency,
             flow,
             least_speed: params.least_speed,
         }),
         (None, Some(volume)) => Ok(Pump::Displacement {
-            moment: params.pressure * volume / (turn * params.efficiency),
+            moment: pressure * volume / (turn * params.efficiency),
             per_radian: volume * params.volumetric_efficiency / turn,
         }),
         _ => Err(cx
@@ -84,6 +106,7 @@ impl AuxiliaryModel for Pump {
                 least_speed,
             } => (power / speed.max(*least_speed), *flow),
             Self::Displacement { moment, per_radian } => (*moment, per_radian * speed),
+            Self::Network { efficiency } => (at.oil_torque / efficiency, at.flow),
         };
         at.observe(&FLOW, flow * 6e4);
         Ok(Loss::MOMENTS.with(&PUMP, at.show("T", "Nm", moment)))
@@ -102,6 +125,13 @@ register!(Auxiliary, "pump", Params,
         Check {
             input: "{ model: { type: pump, pressure: 5 bar, flow: 8 l/min, efficiency: 0.5 }, at: { speed: 2000 rpm } }",
             values: &[("total", "133.333 W")],
+            ..SIX_DIGITS
+        },
+        // dp V_g/(2 pi) = 0.636620 Nm.
+        Check {
+            input: "{ model: { type: pump, pump: main, efficiency: 0.5 }, at: { speed: 2000 rpm, pressure: 5 bar, displacement: 8 cm3, \
+                    oil_torque: 0.636620 Nm } }",
+            values: &[("moment", "1.27324 Nm")],
             ..SIX_DIGITS
         },
     ],

@@ -49,6 +49,9 @@ pub struct Params {
     #[serde(default = "default_share")]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: f64,
+    /// Nozzle of the oil network whose flow reaches the surface; default: the circulated oil flow of the thermal network.
+    #[schemars(extend("x-refers-to" = "oil_network.nozzles"))]
+    pub nozzle: Option<String>,
     /// Heat transfer coefficient, unless a `jet` is given. [W/(m2 K)]
     #[schemars(range(min = 0.1, max = 1e5))]
     pub alpha: Option<f64>,
@@ -95,6 +98,9 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Spray, Diagnostic> {
                 .help("write `alpha` or `jet`"));
         }
     };
+    if let Some(nozzle) = &params.nozzle {
+        cx.oil_element("nozzles", nozzle)?;
+    }
     Ok(Spray {
         area: params.area,
         share: params.share,
@@ -148,6 +154,7 @@ mod tests {
         Params {
             area: 0.06,
             share: 0.5,
+            nozzle: None,
             alpha,
             jet,
         }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Attach, Names, Oil, Spot, State, sealed};
+use crate::hydraulics::Supply;
 use crate::immersion::Height;
 use crate::real::Points;
 
@@ -33,6 +34,8 @@ pub struct MemberSite<'a, R = f64> {
     pub oil: &'a Oil<R>,
     /// Oil height above the axis.
     pub level: Height<R>,
+    /// What flows through the element of the oil network that the model names.
+    pub supply: Supply<R>,
 }
 
 impl sealed::Sealed for OnMember {}
@@ -55,6 +58,7 @@ impl Attach for OnMember {
             speed: state.speed(Some(seat)),
             oil: state.oil(spot),
             level: state.level(spot),
+            supply: state.supply(spot.supply),
         }
     }
 

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Attach, Names, Oil, PreloadEntry, Spot, State, sealed};
+use super::{Attach, Level, Names, Oil, PreloadEntry, Spot, State, sealed};
+use crate::description::PocketEntry;
 use crate::immersion::Height;
 use crate::real::Points;
 
@@ -52,12 +53,22 @@ pub struct SupportPlace {
     /// Oil height above the axis, if the bearing has a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
+    /// Pocket in which oil stands up to an overflow edge. The oil height at the bearing is that of the sump or of the pocket, whichever is
+    /// higher.
+    pub pocket: Option<PocketEntry>,
+    /// Whether oil of the sump reaches the bearing; `false` for one behind a wall or a seal, which only its pocket supplies.
+    #[serde(default = "reached")]
+    pub fed: bool,
     /// Factor on the radial load for the loss models: a number, or numbers over the torque of a port.
     #[serde(default)]
     pub radial_factor: Factor,
     /// Factor on the axial load for the loss models: a number, or numbers over the torque of a port.
     #[serde(default)]
     pub axial_factor: Factor,
+}
+
+fn reached() -> bool {
+    true
 }
 
 /// Directions in which a bearing takes thrust of the shaft.
@@ -122,6 +133,7 @@ pub struct SupportSeat {
     inner: u16,
     outer: Option<u16>,
     number: u16,
+    pocket: Option<u16>,
 }
 
 /// The state at a bearing.
@@ -142,6 +154,8 @@ pub struct SupportSite<'a, R = f64> {
     pub oil: &'a Oil<R>,
     /// Oil height above the axis.
     pub level: Height<R>,
+    /// Oil height in its pocket above the lowest point of the raceway; zero without a pocket. \[m\]
+    pub pocket: R,
 }
 
 impl sealed::Sealed for Support {}
@@ -171,9 +185,28 @@ impl Attach for Support {
             return None;
         }
         names.lies(Some(inner), place.at);
-        names.own_level(place.level);
+        names.own_level(match place.level {
+            Some(level) => Some(Level::Own(level)),
+            None if !place.fed => Some(Level::Dry),
+            None => None,
+        });
+        let stated = place.level.is_some();
+        if stated && (place.pocket.is_some() || !place.fed) {
+            let path = names.path().to_owned();
+            let key = if place.fed { "pocket" } else { "fed" };
+            names.report(
+                crate::document::Diagnostic::error(format!("{path}.{key}"), "`level` already states the oil height")
+                    .help(format!("remove `level` or `{key}`")),
+            );
+        }
+        let pocket = place.pocket.as_ref().map(|pocket| names.add_pocket(pocket));
         let number = names.add_support(inner, outer, place);
-        Some(SupportSeat { inner, outer, number })
+        Some(SupportSeat {
+            inner,
+            outer,
+            number,
+            pocket,
+        })
     }
 
     #[inline(always)]
@@ -187,6 +220,9 @@ impl Attach for Support {
             tilting: load.tilting,
             oil: state.oil(spot),
             level: state.level(spot),
+            pocket: seat
+                .pocket
+                .map_or(R::ZERO, |pocket| state.supplies.pockets[pocket as usize]),
         }
     }
 

@@ -119,9 +119,11 @@ pub struct FlowEntry {
     /// Mass flow times specific heat; not with `share`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub capacity: Option<f64>,
-    /// Share of `oil_flow`; default: all of it. [-]
+    /// Share of `oil_flow`, or of the flow of `element`; default: all of it. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub share: Option<f64>,
+    /// Element of the oil network whose flow it is, such as `nozzles.J1`; not with `capacity`.
+    pub element: Option<String>,
 }
 
 /// One heat exchanger, by its effectiveness.
@@ -136,6 +138,8 @@ pub struct ExchangerEntry {
     /// Mass flow times specific heat of the oil; default: `oil_flow`. [W/K]
     #[schemars(range(min = 0.0, max = 1e9))]
     pub capacity: Option<f64>,
+    /// Element of the oil network whose oil it cools, such as `pipes.cooler`; not with `capacity`.
+    pub element: Option<String>,
     /// Conductance between oil and coolant. [W/K]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub ua: f64,

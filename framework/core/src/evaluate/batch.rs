@@ -255,6 +255,7 @@ impl Scratch<Lane> {
         }
         c.surface = Lane::constant(common.surface);
         c.rest = Lane::constant(common.rest);
+        c.hydraulics.take_common(&common.hydraulics);
         c.common = true;
         c.forget();
         spread(&mut own.closings, &from.closings);

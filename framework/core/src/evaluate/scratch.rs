@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::attach::{Oil, State};
 use crate::flow::{Balance, Status, Work};
+use crate::hydraulics::{self, Supplies};
 use crate::loads::SupportLoad;
 use crate::loss::{Extent, Kept, Loss, Notebook, Seen, Trace, Undefined, nanowatts};
 use crate::real::{Mask as _, Points};
@@ -19,6 +20,8 @@ pub(super) struct Conditions<R: Points> {
     pub oils: Vec<Oil<R>>,
     pub surface: R,
     pub rest: R,
+    /// Flows and pressures of the oil network.
+    pub hydraulics: hydraulics::Work<R>,
     pub loads: Vec<SupportLoad<R>>,
     /// Points that are solved; among several, those that are missing must be solved alone.
     pub live: R::Mask,
@@ -45,6 +48,10 @@ impl<R: Points> Conditions<R> {
             temperatures: &self.temperatures,
             surface: self.surface,
             rest: self.rest,
+            supplies: Supplies {
+                elements: &self.hydraulics.supplies,
+                pockets: &self.hydraulics.pockets,
+            },
             loads: &self.loads,
             calls: &self.calls,
         };
@@ -194,6 +201,7 @@ impl<R: Points> Scratch<R> {
                     oils: vec![Oil::default(); transmission.oils.len()],
                     surface: R::ZERO,
                     rest: R::ZERO,
+                    hydraulics: hydraulics::Work::new(&transmission.hydraulics),
                     loads: vec![SupportLoad::default(); supports],
                     live: R::mask(|_| true),
                     common: false,

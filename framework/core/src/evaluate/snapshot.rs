@@ -24,6 +24,8 @@ pub(crate) struct Snapshot {
     pub port_torques: Vec<f64>,
     /// Share of the heat of each mesh that enters its first gear.
     pub first_heat: Vec<f64>,
+    /// Flow of oil through each element of the oil network. \[m3/s\]
+    pub oil_flows: Vec<f64>,
     /// Input and output power. \[W\]
     pub power: [f64; 2],
     /// Operating state.
@@ -43,10 +45,10 @@ pub(crate) struct Asked<'a> {
 }
 
 impl Snapshot {
-    /// Speeds of the members (rad/s), and the note cells of heat models.
-    pub(crate) fn speeds_and_cells(&mut self) -> (&[f64], &[Cell<Seen>]) {
+    /// Speeds of the members (rad/s), flows of the oil network (m3/s), and the note cells of heat models.
+    pub(crate) fn flows_and_cells(&mut self) -> (&[f64], &[f64], &[Cell<Seen>]) {
         let cells = Cell::from_mut(self.cells.as_mut_slice()).as_slice_of_cells();
-        (&self.speeds, cells)
+        (&self.speeds, &self.oil_flows, cells)
     }
 
     /// Limits that are exceeded: cell of the notes and loss of a component that uses the model. \[W\]
@@ -79,6 +81,9 @@ impl<R: Points> Scratch<R> {
         copy(&mut to.watts, &self.watts);
         copy(&mut to.speeds, &c.speeds);
         copy(&mut to.port_torques, &self.work.ports);
+        to.oil_flows.clear();
+        let supplies = c.hydraulics.supplies.iter();
+        to.oil_flows.extend(supplies.map(|supply| supply.flow.at_point(point)));
         to.first_heat.clear();
         let shares = self.models.mesh_losses.iter();
         let share = |loss: &Loss<R>| loss.first_heat().at_point(point);

@@ -31,6 +31,14 @@ context! {
         eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+        /// Flow through the pump or the rotating channels that the model names. [l/min]
+        flow: 8.0 in 0.0..=100.0 from "the oil network",
+        /// Pressure rise of that pump. [bar]
+        pressure: 4.0 in 0.0..=100.0 from "the oil network",
+        /// Displacement of that pump per turn. [cm3]
+        displacement: 8.0 in 0.0..=100.0 from "the oil network",
+        /// Torque that the oil takes in that element without friction: displacement times pressure rise, or the change of its angular momentum. [Nm]
+        oil_torque: 0.5 in 0.0..=100.0 from "the oil network",
     } laws {
         "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }
@@ -63,6 +71,10 @@ impl Component for Auxiliary {
             nu: oil.nu,
             eta: oil.eta,
             rho: oil.rho,
+            flow: site.supply.flow.max(R::ZERO),
+            pressure: site.supply.rise.max(R::ZERO),
+            displacement: site.supply.displacement,
+            oil_torque: site.supply.torque.max(R::ZERO),
             notes,
         }
     }

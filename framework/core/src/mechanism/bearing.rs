@@ -656,7 +656,7 @@ impl Component for Bearing {
             nu: oil.nu,
             rho: oil.rho,
             beta: oil.beta,
-            oil_height: pocket.map_or_else(|| site.level.over_bottom(part.raceway), R::constant),
+            oil_height: pocket.map_or_else(|| site.level.over_bottom(part.raceway).max(site.pocket), R::constant),
             mu_bl: oil.mu_bl,
             mu_ehl: oil.mu_ehl,
             alpha: oil.alpha,

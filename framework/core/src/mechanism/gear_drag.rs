@@ -206,6 +206,8 @@ context! {
         eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+        /// Flow of the nozzle that the model names. [l/min]
+        injected: 2.0 in 0.0..=100.0 from "the oil network",
     } laws {
         "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
         "dip = tip_dip minus the addendum" {

@@ -90,7 +90,7 @@ context! {
         /// Thermal conductivity of the oil at the mean of both temperatures. [W/(m K)]
         conductivity: 0.14 in 0.05..=1.0 from "`lubricant` of the link, else the oil of the housing",
         /// Mass flow of the oil circuit; zero without one. [kg/s]
-        oil_flow: 0.1 in 0.0..=100.0 from "`oil_flow` of the network, or the flow in the cycle",
+        oil_flow: 0.1 in 0.0..=100.0 from "the nozzle that the model names, else `oil_flow` of the network, or the flow in the cycle",
     } laws {
         "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }

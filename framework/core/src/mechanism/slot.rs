@@ -114,11 +114,18 @@ pub struct Slot<M: Mechanism> {
     pub notes: NoteBase,
     /// True for `none`, which need not be evaluated.
     pub off: bool,
+    /// Path of the element of the oil network that the model, or one nested in it, names.
+    pub(crate) supply: Option<Arc<str>>,
 }
 
 impl<M: Mechanism> Slot<M> {
     pub(crate) fn new(model: Arc<M::Model>, notes: NoteBase, off: bool) -> Self {
-        Self { model, notes, off }
+        Self {
+            model,
+            notes,
+            off,
+            supply: None,
+        }
     }
 }
 
@@ -128,6 +135,7 @@ impl<M: Mechanism> Clone for Slot<M> {
             model: Arc::clone(&self.model),
             notes: self.notes,
             off: self.off,
+            supply: self.supply.clone(),
         }
     }
 }

@@ -9,6 +9,7 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::{Entry, Memory, Registry, from_resolved};
+use crate::attach::dangling;
 use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
 use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
@@ -171,6 +172,10 @@ pub struct Build<'a> {
     around: Option<Scope>,
     instances: Vec<Instance>,
     cells: usize,
+    /// Paths of the elements of the oil network; `None` while a model is built without a gearbox.
+    pub(crate) oil_elements: Option<Vec<String>>,
+    /// The element that the model named which is being built.
+    supply: Option<Arc<str>>,
     /// What the last build left, and what this one leaves.
     pub(crate) memory: Memory,
 }
@@ -202,6 +207,8 @@ impl<'a> Build<'a> {
             around: None,
             instances: Vec::new(),
             cells: 0,
+            oil_elements: None,
+            supply: None,
             memory,
         }
     }
@@ -262,6 +269,29 @@ impl<'a> Build<'a> {
             self.error(reason)
                 .help("names of files are relative to the document that names them")
         })
+    }
+
+    /// Has the context of the model show what flows through an element of the oil network, by its section, such as `nozzles`, and its name.
+    ///
+    /// # Errors
+    /// If there is no such element, or a nested model names another one.
+    pub fn oil_element(&mut self, section: &str, name: &str) -> Result<(), Diagnostic> {
+        let path = format!("oil_network.{section}.{name}");
+        if let Some(known) = &self.oil_elements
+            && !known.contains(&path)
+        {
+            let first = format!("oil_network.{section}.");
+            let names: Vec<&str> = known.iter().filter_map(|path| path.strip_prefix(&first)).collect();
+            let what = section.trim_end_matches('s').replace('_', " ");
+            return Err(dangling(&self.path, &what, name, &names));
+        }
+        if self.supply.as_ref().is_some_and(|other| **other != *path) {
+            return Err(self
+                .error("a nested model names another element of the oil network")
+                .help("name the same element in both"));
+        }
+        self.supply = Some(path.into());
+        Ok(())
     }
 
     /// The parameters of the model.
@@ -331,9 +361,11 @@ impl<'a> Build<'a> {
         let (first, first_cell) = (self.instances.len(), self.cells);
         path.clone_into(&mut self.path);
         self.part = Some(Arc::clone(&part));
+        self.supply = None;
         let built = self.slot_here(value);
         self.part = None;
-        let slot: Slot<M> = built?;
+        let mut slot: Slot<M> = built?;
+        slot.supply = self.supply.take();
         let kept = KeptSlot {
             part,
             slot: slot.clone(),
@@ -425,6 +457,13 @@ impl<'a> Build<'a> {
             Ok(model) => Ok(Slot::new(*model, notes.until(self.cells), name == "none")),
             Err(_) => Err(self.error(format!("bug: model `{name}` was built for another mechanism"))),
         }
+    }
+
+    /// Number of the element of the oil network that a model names.
+    pub(crate) fn supply<M: Mechanism>(&self, slot: &Slot<M>) -> Option<u16> {
+        let path = slot.supply.as_deref()?;
+        let number = self.oil_elements.as_ref()?.iter().position(|known| known == path)?;
+        Some(number as u16)
     }
 
     /// Builds a rating at a path for a part.

@@ -45,6 +45,10 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     fn off(&self) -> bool;
     /// Position of its model's notes.
     fn notes(&self) -> NoteBase;
+    /// Number of the element of the oil network that its model names.
+    fn supply(&self) -> Option<u16> {
+        None
+    }
     /// Number of the support, for components that carry load.
     fn support(&self) -> Option<u16>;
     /// Static load rating, if known.
@@ -151,6 +155,9 @@ impl<C: Component> Placed for PlacedAs<C> {
     }
     fn notes(&self) -> NoteBase {
         self.model.notes
+    }
+    fn supply(&self) -> Option<u16> {
+        self.spot.supply
     }
     fn support(&self) -> Option<u16> {
         C::Attachment::support(self.seat)
@@ -262,10 +269,11 @@ fn place<C: Component>(
     let (Some(seat), Some(spot)) = (seat, spot) else {
         return Ok(None);
     };
+    let supply = build.supply(&model);
     Ok(Some(Box::new(PlacedAs::<C> {
         part,
         seat,
-        spot,
+        spot: Spot { supply, ..spot },
         model,
     })))
 }

@@ -6,6 +6,7 @@ use super::gearing::gearing;
 use super::grease;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
+use super::oil_network::{self, element_paths};
 use super::oils::{OilNumbers, Oils};
 use super::pairs::{BearingPair, Design};
 use super::planets::{self, Held};
@@ -17,10 +18,11 @@ use super::statics::{Imported, imported, load_factors, shaft_loads};
 use super::{
     Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Sump, Transmission, WHEELS,
 };
-use crate::attach::{Common, Level, Names, Places, SeatedClearance, SeatedSupport, dangling};
+use crate::attach::{Common, Level, Names, Places, Seated, SeatedClearance, SeatedPocket, SeatedSupport, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::{Diagnostic, classify};
+use crate::hydraulics::Hydraulics;
 use crate::language::Language;
 use crate::loads::ShaftLoads;
 use crate::mechanism::ModelRef;
@@ -64,6 +66,7 @@ impl Transmission {
         let (entry, members, ports) = (&frame.entry, &frame.members, &frame.ports);
         let mut oils = OilNumbers::new(entry, members, (&frame.gears, &frame.meshes), &frame.nodes, &mut memory);
         let mut build = Build::again(language.registry(), files, memory);
+        build.oil_elements = Some(element_paths(entry));
         let models = Models::new(
             language,
             resolved,
@@ -73,6 +76,7 @@ impl Transmission {
             &mut found,
             &mut warnings,
         );
+        let hydraulics = models.hydraulics(&frame, resolved, &mut oils, &mut found, &mut warnings);
         let supports = &models.supports;
         let housing = Housing::new(entry, &mut build, &mut found);
         classify(&mut found, codes::THERMAL);
@@ -146,6 +150,7 @@ impl Transmission {
             rated,
             pairs,
             oils,
+            hydraulics,
             loads,
             load_factors,
             imported,
@@ -315,6 +320,7 @@ struct Models {
     parts: Vec<PartInfo>,
     supports: Vec<SeatedSupport>,
     clearances: Vec<SeatedClearance>,
+    pockets: Vec<SeatedPocket>,
 }
 
 impl Models {
@@ -333,6 +339,28 @@ impl Models {
             }
         }
         designs
+    }
+
+    /// The oil network; empty without one.
+    fn hydraulics(
+        &self,
+        frame: &Frame,
+        resolved: &Resolved,
+        oils: &mut OilNumbers<'_>,
+        found: &mut Vec<Diagnostic>,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Hydraulics {
+        let around = oil_network::Around {
+            entry: &frame.entry,
+            document: &resolved.value,
+            members: &frame.members.names,
+            parts: &self.parts,
+            components: &self.components,
+            pockets: &self.pockets,
+        };
+        let built = oil_network::hydraulics(&around, oils, found, warnings);
+        classify(found, codes::OIL_NETWORK);
+        built
     }
 
     /// Loads of the supports; `None` if they cannot be found.
@@ -401,6 +429,8 @@ impl Models {
             .components
             .iter()
             .any(|component| component.placed.reads_level(highest));
+        let mut pipes = entry.oil_network.iter().flat_map(|network| network.pipes.iter());
+        let reads = reads || pipes.any(|(_, pipe)| pipe.inlet_height.is_some());
         if let (Some(inside), Some(rest)) = (oils.inside.clone(), oils.rest())
             && let Some(oil) = oils.oil("housing.oil", &Common::default())
         {
@@ -478,7 +508,9 @@ fn check_network(
     let laid_out = *resolved.source_of("thermal.network") == ValueSource::Network;
     let balances = entry.thermal.mode == ThermalMode::Network;
     if let Some(NetworkChoice::Written(written)) = &entry.thermal.network {
-        let paths: Vec<&str> = parts.iter().map(|p| p.path.as_str()).collect();
+        let elements = element_paths(entry);
+        let parts = parts.iter().map(|p| p.path.as_str());
+        let paths: Vec<&str> = parts.chain(elements.iter().map(String::as_str)).collect();
         unmet(written, &paths, found);
         if balances {
             unused(entry, laid_out, found, warnings);
@@ -677,7 +709,12 @@ fn place(
             }
         }
     }
-    let (supports, clearances, more) = names.finish();
+    let (seated, more) = names.finish();
+    let Seated {
+        supports,
+        clearances,
+        pockets,
+    } = seated;
     found.extend(more);
     Models {
         components,
@@ -686,6 +723,7 @@ fn place(
         parts,
         supports,
         clearances,
+        pockets,
     }
 }
 

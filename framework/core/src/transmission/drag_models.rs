@@ -193,6 +193,7 @@ impl Drags<'_, '_, '_> {
                     ..place.seat.clone()
                 },
                 part: Arc::clone(&place.part),
+                supply: self.build.supply(&model),
                 model,
                 oil,
                 churning: covers.churning,

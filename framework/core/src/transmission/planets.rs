@@ -232,6 +232,7 @@ pub fn models(
                 spot: Spot {
                     oil,
                     level: oils.level(Some(carrier as u16), 0.0),
+                    supply: None,
                 },
             }),
         });

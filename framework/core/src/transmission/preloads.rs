@@ -7,6 +7,7 @@ use super::pairs::Design;
 use crate::attach::{Axial, Oil, PreloadBody, PreloadEntry, SeatedSupport, State, dangling};
 use crate::codes;
 use crate::document::Diagnostic;
+use crate::hydraulics::Supplies;
 use crate::loads::{AngularRow, Layout, Mounting, Pair, StiffPair, SupportLoad, ThermalClosing};
 use crate::loss::{Notebook, Undefined};
 use crate::real::Points;
@@ -335,6 +336,8 @@ impl Preloading<'_> {
         }
         let mut oils = vec![Oil::default(); self.oils.len()];
         self.oils.write_states(&[temperature], &mut oils);
+        // A bearing has one pocket at most.
+        let pockets = vec![0.0; self.supports.len()];
         let moment = |force: f64| -> Result<f64, Undefined> {
             let mut loads = vec![SupportLoad::default(); self.supports.len()];
             for own in pair {
@@ -346,6 +349,10 @@ impl Preloading<'_> {
                 temperatures: &[temperature],
                 surface: f64::NEG_INFINITY,
                 rest: f64::NEG_INFINITY,
+                supplies: Supplies {
+                    elements: &[],
+                    pockets: &pockets,
+                },
                 loads: &loads,
                 calls: &Cell::new(0),
             };

@@ -17,6 +17,7 @@ use super::PageTable;
 use super::gearbox::table;
 use crate::picture::{Picture, Screen, Waterfall};
 use crate::schematic::oil_section;
+use crate::point::flow_rows;
 use crate::text::{fixed, number};
 
 /// The point of the report: from the study, or the largest torque and speed of its first grid.
@@ -100,6 +101,7 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
                 losses = losses_of_parts(t, &solution);
                 tables.push(bearings(b, &solution));
                 tables.push(dips(t, &solution));
+                tables.extend(oil_flows(&solution));
                 tables.push(ports(t, &solution));
                 tables.push(members(t, &solution));
             } else {
@@ -249,6 +251,12 @@ fn dips(t: &Transmission, solution: &Solution<'_>) -> PageTable {
         &["drag", "tip mm", "reference mm", "tip 2 mm", "reference 2 mm", "loss W"],
         rows.collect(),
     )
+}
+
+/// Flows of the oil network.
+fn oil_flows(solution: &Solution<'_>) -> Option<PageTable> {
+    let (head, rows) = flow_rows(&solution.oil_supply()?);
+    Some(table("Flows of the oil network", &head, rows))
 }
 
 fn ports(t: &Transmission, solution: &Solution<'_>) -> PageTable {

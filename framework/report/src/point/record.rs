@@ -22,6 +22,7 @@ use serde::Serialize;
 use super::multiplied;
 use super::network::NetworkRecord;
 use super::oil::OilLevelRecord;
+use super::oil_network::OilRecord;
 
 const FORMAT: &str = "gearloss-point/1";
 
@@ -77,6 +78,9 @@ pub struct PointRecord {
     balance: Option<BalanceOfPoint>,
     /// Steady state of the thermal network; null without a network, and if the temperature is given.
     network: Option<NetworkRecord>,
+    /// Flows and pressures of the oil network, and pockets of bearings; absent without them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    oil_network: Option<OilRecord>,
     /// Limits and observed quantities noted by the models.
     notes: Vec<Note>,
     /// Ratings of the components: life, safety, film, temperature. No loss depends on them.
@@ -259,6 +263,7 @@ impl PointRecord {
             oil_level: solution.oil_levels().map(OilLevelRecord::from),
             balance: found.balance.as_ref().map(|b| BalanceOfPoint::new(transmission, b)),
             network: found.network.as_ref().and_then(|n| NetworkRecord::new(transmission, n)),
+            oil_network: OilRecord::new(solution),
             notes: solved.notes.clone(),
             ratings: rated(&ratings, transmission, solution),
             evidence: evidence(transmission, resolved, &|path| gearbox.places.is_written(path)),

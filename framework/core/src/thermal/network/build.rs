@@ -76,7 +76,11 @@ impl Network {
                         .help("remove one of them"),
                 );
             }
-            let rate = rate(&path, flow.capacity, flow.share, network, found);
+            let element = element(&path, flow.element.as_ref(), flow.capacity, build, found);
+            if flow.element.is_some() && element.is_none() {
+                continue;
+            }
+            let rate = rate(&path, flow.capacity, (flow.share, element), network, found);
             if let ([Some(from), Some(to)], Some(rate)) = (ends, rate) {
                 if from == to {
                     found.push(same_node(&path));
@@ -87,7 +91,14 @@ impl Network {
         let exchangers: Vec<Exchanger> = network
             .exchangers
             .iter()
-            .filter_map(|(id, e)| exchanger(&format!("thermal.network.exchangers.{id}"), e, network, around, found))
+            .filter_map(|(id, e)| {
+                let path = format!("thermal.network.exchangers.{id}");
+                let element = element(&path, e.element.as_ref(), e.capacity, build, found);
+                if e.element.is_some() && element.is_none() {
+                    return None;
+                }
+                exchanger(&path, e, element, network, around, found)
+            })
             .collect();
         let mut sources = Vec::new();
         for (id, source) in network.sources.iter() {
@@ -195,6 +206,7 @@ fn law(
             });
             match build.slot_at::<HeatLink>(&format!("{path}.model"), &part, &choice.value) {
                 Ok(model) => Law::Model(Box::new(Lawful {
+                    supply: build.supply(&model),
                     model,
                     part,
                     member,
@@ -242,20 +254,49 @@ fn shape(gear: &GearSeat) -> GearShape {
     }
 }
 
+/// Number of an element of the oil network; `None` without one, or reported.
+fn element(
+    path: &str,
+    name: Option<&String>,
+    capacity: Option<f64>,
+    build: &Build<'_>,
+    found: &mut Vec<Diagnostic>,
+) -> Option<usize> {
+    let name = name?;
+    let path = format!("{path}.element");
+    if capacity.is_some() {
+        found.push(
+            Diagnostic::error(path.clone(), "both `capacity` and `element` are stated").help("remove one of them"),
+        );
+    }
+    let known = build.oil_elements.as_deref().unwrap_or_default();
+    let ids: Vec<&str> = known
+        .iter()
+        .filter_map(|path| path.strip_prefix("oil_network."))
+        .collect();
+    let number = ids.iter().position(|id| id == name);
+    if number.is_none() {
+        found.push(dangling(&path, "element of the oil network", name, &ids));
+    }
+    number
+}
+
 fn rate(
     path: &str,
     capacity: Option<f64>,
-    share: Option<f64>,
+    (share, element): (Option<f64>, Option<usize>),
     network: &NetworkEntry,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Rate> {
-    match capacity {
-        Some(given) => Some(Rate::Given(given)),
-        None if network.oil_flow.is_some() => Some(Rate::Share(share.unwrap_or(1.0))),
-        None => {
+    match (capacity, element) {
+        (Some(given), _) => Some(Rate::Given(given)),
+        (None, Some(element)) => Some(Rate::Element(element, share.unwrap_or(1.0))),
+        (None, None) if network.oil_flow.is_some() => Some(Rate::Share(share.unwrap_or(1.0))),
+        (None, None) => {
             found.push(
-                Diagnostic::error(path, "the flow is not stated")
-                    .help("add `oil_flow: 8 l/min` to the network, or `capacity: 200 W/K` here"),
+                Diagnostic::error(path, "the flow is not stated").help(
+                    "add `oil_flow: 8 l/min` to the network, or `capacity: 200 W/K` or an `element` of the oil network here",
+                ),
             );
             None
         }
@@ -305,13 +346,14 @@ fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Di
 fn exchanger(
     path: &str,
     entry: &ExchangerEntry,
+    element: Option<usize>,
     network: &NetworkEntry,
     around: &Around<'_>,
     found: &mut Vec<Diagnostic>,
 ) -> Option<Exchanger> {
     let from = node_of(around.names, &format!("{path}.from"), &entry.from, found);
     let to = node_of(around.names, &format!("{path}.to"), &entry.to, found);
-    let oil = rate(path, entry.capacity, None, network, found);
+    let oil = rate(path, entry.capacity, (None, element), network, found);
     if from.is_some() && from == to {
         found.push(same_node(path));
     }

@@ -37,6 +37,8 @@ pub(super) struct Lawful {
     pub(super) model: Slot<HeatLink>,
     pub(super) part: Arc<HeatLinkPart>,
     pub(super) member: Option<usize>,
+    /// Element of the oil network that the model names.
+    pub(super) supply: Option<u16>,
     pub(super) lubricant: Arc<Lubricant>,
 }
 
@@ -55,6 +57,8 @@ pub enum Rate {
     Given(f64),
     /// A share of the circulated oil flow.
     Share(f64),
+    /// A share of the flow through an element of the oil network, by number.
+    Element(usize, f64),
 }
 
 pub(super) struct Exchanger {
@@ -170,6 +174,8 @@ impl Network {
                 let (kind, amount) = match rate {
                     Rate::Given(given) => (0, *given),
                     Rate::Share(share) => (1, *share),
+                    // Flows of the oil network balance at its junctions.
+                    Rate::Element(..) => continue,
                 };
                 if *to == node {
                     net[kind] += amount;

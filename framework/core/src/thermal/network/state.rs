@@ -88,11 +88,14 @@ impl Network {
         let pumped = || self.pumped.unwrap_or(0.0) * self.lubricant.density(oil);
         let mass = around.oil_flow.unwrap_or_else(pumped);
         let capacity = mass * self.lubricant.heat_capacity(oil);
+        let density = self.lubricant.density(oil);
+        let (speeds, oil_flows, cells) = point.flows_and_cells();
+        let through = |element: usize| density * oil_flows[element].max(0.0);
         let rate = |rate: Rate| match rate {
             Rate::Given(given) => given,
             Rate::Share(share) => share * capacity,
+            Rate::Element(element, share) => share * through(element) * self.lubricant.heat_capacity(oil),
         };
-        let (speeds, cells) = point.speeds_and_cells();
         circuit.links.clear();
         for (i, link) in self.links.iter().enumerate() {
             let conductance = match &link.law {
@@ -100,6 +103,7 @@ impl Network {
                 Law::Model(law) => {
                     let ends = link.between.map(|node| temperatures[node]);
                     let notes = Notes::new(cells, law.model.notes);
+                    let mass = law.supply.map_or(mass, |element| through(element.into()));
                     law.conductance(ends, speeds, around.vehicle_speed, mass, notes)
                         .map_err(|e| (i, e))?
                 }

@@ -79,6 +79,14 @@ impl Network {
         ]
     }
 
+    /// True if flows of the oil network carry heat, which depend on speeds and on the temperature of the oil.
+    pub fn uses_oil_network(&self) -> bool {
+        let exchangers = self.exchangers.iter().map(|exchanger| exchanger.oil);
+        let mut rates = self.flows.iter().map(|(_, rate)| *rate).chain(exchangers);
+        let named = |law: &Law| matches!(law, Law::Model(law) if law.supply.is_some());
+        rates.any(|rate| matches!(rate, Rate::Element(..))) || self.links.iter().any(|link| named(&link.law))
+    }
+
     /// Flows of oil from one node to another.
     pub fn flows(&self) -> &[([usize; 2], Rate)] {
         &self.flows

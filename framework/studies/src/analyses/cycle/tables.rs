@@ -160,6 +160,13 @@ pub fn network<'a>(cx: &Planner<'_>, b: &'a Built<'_>, duties: &Duties<'_>) -> R
         .transmission
         .network()
         .filter(|_| oil == OilTemperature::Network && in_time);
+    if network.is_some_and(Network::uses_oil_network) {
+        return Err(cx.wrong(
+            &format!("{}.export", cx.path()),
+            "the FMU of a cycle has one oil flow, but flows of the oil network carry heat in this network",
+            "state `oil_flow` and shares of it in `thermal.network`, instead of `element` and `nozzle`",
+        ));
+    }
     network.ok_or_else(|| {
         cx.wrong(
             &format!("{}.export", cx.path()),
@@ -181,7 +188,8 @@ fn case(t: &Transmission, gear: &str) -> Result<Case, Vec<gearloss_framework::do
 fn rate(rate: Rate) -> fmu::Flow {
     match rate {
         Rate::Given(given) => fmu::Flow::Given(given),
-        Rate::Share(share) => fmu::Flow::Share(share),
+        // A network with flows of elements is refused.
+        Rate::Share(share) | Rate::Element(_, share) => fmu::Flow::Share(share),
     }
 }
 

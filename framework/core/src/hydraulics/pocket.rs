@@ -1,0 +1,196 @@
+//! Pockets at bearings and chambers: how high the oil stands that flows in and out.
+
+use super::network::{Fluid, Hydraulics, Inputs};
+use super::solve::Work;
+use super::{Edge, GRAVITY, Orifice};
+use crate::real::{Mask as _, Points, Real};
+
+/// Maximum number of steps to the height of the oil in a pocket.
+const MOST_STEPS: usize = 200;
+
+/// A space that oil leaves through holes at its bottom, into another chamber or the sump.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chamber {
+    /// Name.
+    pub name: String,
+    /// Its holes.
+    pub drain: Orifice,
+    /// Area of its floor; its walls are vertical. \[m2\]
+    pub floor: f64,
+    /// Height of its walls over the holes. \[m\]
+    pub height: Option<f64>,
+    /// Number of its oil.
+    pub oil: u16,
+    /// Chamber into which it drains, by number; the sump without.
+    pub into: Option<usize>,
+}
+
+/// The pocket of a bearing, between it and its cover or seal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pocket {
+    /// Path of the bearing.
+    pub path: String,
+    /// Lowest edge over which oil escapes.
+    pub edge: Edge,
+    /// Height of the edge over the lowest point of the raceway. \[m\]
+    pub edge_height: f64,
+    /// Hole at the lowest point of the raceway.
+    pub drain: Option<Orifice>,
+    /// Elements that supply it, with the number of components that share each.
+    pub feeds: Vec<(usize, f64)>,
+    /// Flow from elsewhere, such as oil that a rib catches from the wall. \[m3/s\]
+    pub inflow: f64,
+    /// Number of its oil.
+    pub oil: u16,
+}
+
+impl Pocket {
+    /// Oil that flows into it. \[m3/s\]
+    pub(crate) fn inflow<R: Points>(&self, work: &Work<R>) -> R {
+        let fed = self.feeds.iter();
+        let fed = fed.map(|(element, shared)| work.supplies[*element].flow / *shared);
+        fed.fold(R::constant(self.inflow), |sum, flow| sum + flow.max(R::ZERO))
+    }
+
+    /// Oil height over the lowest point of the raceway for a flow into the pocket. \[m3/s and m\]
+    pub fn height<R: Real>(&self, inflow: R, fluid: &Fluid<R>) -> R {
+        let weight = fluid.rho * GRAVITY;
+        let (full, at_edge) = match &self.drain {
+            // What the hole takes below the edge.
+            Some(drain) => (
+                drain.pressure(inflow, fluid.eta, fluid.rho) / weight,
+                drain.flow(weight * self.edge_height, fluid.eta, fluid.rho).0,
+            ),
+            None => (R::constant(self.edge_height), R::ZERO),
+        };
+        let wet = inflow.is_above(R::ZERO);
+        let over = wet & inflow.is_above(at_edge);
+        let below = R::select(wet, full, R::ZERO);
+        if !over.any() {
+            return below;
+        }
+        R::select(over, self.over_edge(inflow, fluid), below)
+    }
+
+    /// The same while oil flows over the edge.
+    fn over_edge<R: Real>(&self, inflow: R, fluid: &Fluid<R>) -> R {
+        let weight = fluid.rho * GRAVITY;
+        // Flow out and height at the unknown of the edge, with their slopes.
+        let out = |root: R| {
+            let over = self.edge.over(root, fluid.nu);
+            let height = over.height + self.edge_height;
+            let (hole, slope) = self.drain.map_or((R::ZERO, R::ZERO), |drain| {
+                let (flow, slope) = drain.flow(weight * height, fluid.eta, fluid.rho);
+                (flow, slope * weight)
+            });
+            (
+                over.flow + hole,
+                over.flow_slope + slope * over.height_slope,
+                height,
+                over.height_slope,
+            )
+        };
+        let (mut low, mut high) = (R::ZERO, R::constant(self.edge.bound().unwrap_or(1.0)));
+        let mut at = high * 0.25;
+        let mut open = inflow.is_above(R::ZERO);
+        for _ in 0..MOST_STEPS {
+            let (flow, slope, ..) = out(at);
+            let is_above = flow.is_above(inflow);
+            high = R::select(is_above, at, high);
+            low = R::select(is_above, low, at);
+            let newton = at - (flow - inflow) / slope;
+            let inside = newton.is_above(low) & newton.is_below(high);
+            let next = R::select(inside, newton, (low + high) * 0.5);
+            let close = !(next - at).abs().is_above(at * 1e-14);
+            at = R::select(open, next, at);
+            open = open & !close;
+            if !open.any() {
+                break;
+            }
+        }
+        // One more step over numbers with derivatives.
+        let (flow, slope, height, height_slope) = out(at);
+        height - (flow - inflow) / slope * height_slope
+    }
+}
+
+impl Hydraulics {
+    /// The oil height in all pockets.
+    pub(super) fn fill_pockets<R: Points>(&self, at: &Inputs<'_, R>, work: &mut Work<R>) {
+        for (i, pocket) in self.pockets.iter().enumerate() {
+            let fluid = self.aerated(&at.oils[pocket.oil as usize]);
+            work.pockets[i] = pocket.height(pocket.inflow(work), &fluid);
+        }
+    }
+
+    /// Oil height over the holes of each chamber and the flow through it. \[m and m3/s\]
+    pub(crate) fn chambers(&self, work: &Work<f64>, at: &Inputs<'_, f64>) -> Vec<[f64; 2]> {
+        let mut flows = vec![0.0; self.chambers.len()];
+        for (element, supply) in self.elements.iter().zip(&work.supplies) {
+            if let Some(chamber) = element.chamber {
+                flows[chamber] += supply.flow.max(0.0);
+            }
+        }
+        let mut levels = Vec::with_capacity(flows.len());
+        for (i, chamber) in self.chambers.iter().enumerate() {
+            let flow = flows[i];
+            if let Some(into) = chamber.into {
+                flows[into] += flow;
+            }
+            let fluid = self.aerated(&at.oils[chamber.oil as usize]);
+            let head = chamber.drain.pressure(flow, fluid.eta, fluid.rho) / (fluid.rho * GRAVITY);
+            levels.push([head, flow]);
+        }
+        levels
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hydraulics::tests::{L_MIN, close};
+
+    #[test]
+    fn a_pocket_with_a_drain_and_a_circular_edge() {
+        let pocket = Pocket {
+            path: String::new(),
+            edge: Edge::Circle { radius: 20e-3 },
+            edge_height: 8e-3,
+            drain: Some(Orifice {
+                diameter: 3e-3,
+                length: 8e-3,
+                discharge: 0.8,
+                count: 1.0,
+            }),
+            feeds: Vec::new(),
+            inflow: 0.0,
+            oil: 0,
+        };
+        for (nu, heights) in [
+            (1e-5, [5.282_09, 10.2526, 12.2371, 17.2800]),
+            (1e-4, [9.305_32, 10.8747, 12.6528, 17.5412]),
+        ] {
+            let fluid = Fluid {
+                nu,
+                eta: 830.0 * nu,
+                rho: 830.0,
+            };
+            for (flow, height) in [0.05, 0.2, 0.5, 2.0].into_iter().zip(heights) {
+                close(pocket.height(flow * L_MIN, &fluid) * 1e3, height, 6);
+            }
+            assert_eq!(pocket.height(0.0, &fluid), 0.0);
+            let closed = Pocket {
+                drain: None,
+                ..pocket.clone()
+            };
+            assert!(closed.height(1e-12, &fluid) >= 8e-3 && closed.height(1e-12, &fluid) < 8.01e-3);
+            // Monotone, through the edge.
+            let mut last = 0.0;
+            for i in 1..400 {
+                let height = pocket.height(f64::from(i) * 0.01 * L_MIN, &fluid);
+                assert!(height > last);
+                last = height;
+            }
+        }
+    }
+}
