@@ -211,6 +211,9 @@ impl Solution<'_> {
             .elements
             .iter()
             .fold(0.0_f64, |most, element| most.max(element.flow.abs()));
+        // At standstill nothing needs oil.
+        let rotates = |element: &Element| element.driver_speed(&c.speeds).is_some_and(|speed| speed != 0.0);
+        let is_driven = network.elements.iter().any(rotates);
         for (element, flow) in network.elements.iter().zip(&supply.elements) {
             if let (Some(inlet), Law::Pipe(pipe)) = (element.inlet, &element.law) {
                 let depth = c.surface - inlet;
@@ -232,7 +235,7 @@ impl Solution<'_> {
                 }
             }
             let is_consumer = element.ends[1] == End::Open || !element.feeds.is_empty();
-            if is_consumer && largest > 0.0 && flow.flow <= NO_FLOW * largest {
+            if is_consumer && is_driven && flow.flow <= NO_FLOW * largest {
                 add(
                     element.path.clone(),
                     format!("it has no flow: {:.4} l/min", flow.flow * 6e4),
