@@ -26,7 +26,7 @@ use crate::document::{Diagnostic, did_you_mean};
 use crate::hydraulics::{Supplies, Supply};
 use crate::immersion::Height;
 use crate::loads::SupportLoad;
-use crate::real::Points;
+use crate::real::{Points, Real};
 
 mod sealed {
     pub trait Sealed {}
@@ -171,6 +171,27 @@ pub enum Level {
     },
 }
 
+impl Level {
+    /// Height of a surface above the axis, across the shafts.
+    #[inline(always)]
+    pub(crate) fn under<R: Real>(self, surface: R) -> Height<R> {
+        match self {
+            Self::Dry => Height {
+                level: R::constant(f64::NEG_INFINITY),
+                orbit: 0.0,
+            },
+            Self::Own(level) => Height {
+                level: R::constant(level),
+                orbit: 0.0,
+            },
+            Self::Sump { height, slope, orbit } => Height {
+                level: (surface - height) * slope,
+                orbit,
+            },
+        }
+    }
+}
+
 /// State of the transmission at one operating point, as attachments see it.
 #[derive(Debug, Clone, Copy)]
 pub struct State<'a, R = f64> {
@@ -227,26 +248,7 @@ impl<'a, R: Points> State<'a, R> {
     /// Oil height above the axis at a spot.
     #[inline(always)]
     pub fn level(&self, spot: &Spot) -> Height<R> {
-        self.height(spot.level, self.surface)
-    }
-
-    /// Height of a surface above an axis.
-    #[inline(always)]
-    pub(crate) fn height(&self, level: Level, surface: R) -> Height<R> {
-        match level {
-            Level::Dry => Height {
-                level: R::constant(f64::NEG_INFINITY),
-                orbit: 0.0,
-            },
-            Level::Own(level) => Height {
-                level: R::constant(level),
-                orbit: 0.0,
-            },
-            Level::Sump { height, slope, orbit } => Height {
-                level: (surface - height) * slope,
-                orbit,
-            },
-        }
+        spot.level.under(self.surface)
     }
 }
 

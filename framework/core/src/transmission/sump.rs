@@ -226,6 +226,6 @@ impl<R: Points> State<'_, R> {
     /// Oil height at rest above an axis, which churning laws use.
     #[inline(always)]
     pub(crate) fn level_at_rest(&self, level: Level) -> Height<R> {
-        self.height(level, self.rest)
+        level.under(self.rest)
     }
 }
