@@ -28,8 +28,9 @@ const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 const OPEN: [&str; 6] = ["bound", "set", "terms_w", "value", "model", "limit_values"];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 6] = [
+const OPTIONAL: [&str; 7] = [
     "data",
+    "preloads",
     "turned_at",
     "file",
     "derivatives",
@@ -110,6 +111,10 @@ fn points() -> Vec<Value> {
             ],
         ),
         solve(["tests/results/self_locking.yaml", "--speed", "-3000 rpm"], &[]),
+        solve(
+            ["tests/trade/preloaded-bearings/gearbox.yaml", "--speed", "1500 rpm"],
+            &[],
+        ),
         solve([car[0], "--speed", "0 rpm"], &["--gear", "first"]),
         solve(
             car,

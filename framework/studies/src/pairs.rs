@@ -64,7 +64,7 @@ pub struct PreloadCard {
     /// Distance by which both bearings together are closed at mounting temperature; negative with end play. [um]
     pub closing_um: f64,
     /// Axial stiffness of the shaft between both at this force; null with end play. [N/um]
-    pub stiffness_n_per_um: Option<f64>,
+    pub axial_stiffness: Option<f64>,
     /// Distance of the contacts with the outer rings along the shaft. [mm]
     pub distance_mm: f64,
     /// Change of the closing per kelvin of the shaft. [um]
@@ -174,7 +174,7 @@ fn preload_card(transmission: &Transmission, preload: &PairPreload) -> PreloadCa
         mounting_temperature_degc: preload.mounting_temperature,
         force_n: preload.force,
         closing_um: 1e6 * preload.closing,
-        stiffness_n_per_um: (preload.force > 0.0).then(|| 1e-6 * preload.bearings.stiffness(preload.force)),
+        axial_stiffness: (preload.force > 0.0).then(|| 1e-6 * preload.bearings.stiffness(preload.force)),
         distance_mm: 1e3 * preload.distance,
         per_kelvin_of_shaft_um: 1e6 * of_shaft,
         per_kelvin_of_housing_um: 1e6 * of_housing,
@@ -186,7 +186,7 @@ fn preload_card(transmission: &Transmission, preload: &PairPreload) -> PreloadCa
 impl PreloadCard {
     /// It in words.
     fn words(&self) -> String {
-        let mounted = match self.stiffness_n_per_um {
+        let mounted = match self.axial_stiffness {
             Some(stiffness) => format!(
                 "preload {} N ({} um, {} N/um)",
                 short(self.force_n),
