@@ -5,6 +5,7 @@
 
 mod build;
 mod check;
+mod compared;
 mod evaluated;
 mod memory;
 mod placed;
@@ -19,6 +20,7 @@ use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
 pub use check::Check;
+pub use compared::{Compared, ComparedSet, ShippedCells, kind_of};
 pub use evaluated::Evaluated;
 pub(crate) use memory::Memory;
 pub(crate) use placed::BuiltRating;

@@ -17,3 +17,4 @@ pub mod sweep;
 pub mod thermal_limit;
 pub mod tournament;
 pub mod uncertainty;
+pub mod validation;

@@ -39,6 +39,7 @@ pub mod tournament;
 pub mod trial;
 pub mod uncertainty;
 pub(crate) mod units;
+pub mod validation;
 mod within;
 
 use std::any::Any;

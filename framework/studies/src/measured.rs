@@ -5,6 +5,7 @@
 mod accuracies;
 mod columns;
 mod condition;
+mod constants;
 mod files;
 mod listed;
 mod read;
@@ -14,6 +15,7 @@ mod steady;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::points::PointResult;
 use gearloss_framework::description::Ordered;
@@ -51,6 +53,9 @@ pub struct MeasuredEntry {
     /// Unit of each quantity, unless the header or a row of units states it: `efficiency: "%"`.
     #[serde(default)]
     pub units: Ordered<String>,
+    /// Quantities that are the same in every row and have no column: `torque: 0 Nm` for a bearing that carries none.
+    #[serde(default)]
+    pub constants: Ordered<Value>,
     /// `units` have precedence where a file states different ones; otherwise that is an error.
     #[serde(default)]
     pub units_override: bool,
@@ -292,6 +297,33 @@ pub(crate) mod tests {
             .unwrap();
         assert!(close(read.value(&read.rows[0], "loss").unwrap(), 250.0));
         assert!(!read.holds("efficiency"));
+    }
+
+    #[test]
+    fn a_constant_stands_for_a_column() {
+        let of = |constants: serde_json::Value| -> MeasuredEntry {
+            serde_json::from_value(json!({ "file": "rig.csv", "stated_as": "standard", "constants": constants }))
+                .unwrap()
+        };
+        let bytes: &[u8] = b"speed [rpm],loss [W]\n1000,3\n2000,7\n";
+        let read = of(json!({ "torque": "0 Nm", "oil_temperature": 60 }))
+            .read(bytes, &[])
+            .unwrap();
+        let at = |quantity: &str| {
+            read.rows
+                .iter()
+                .map(|row| read.value(row, quantity).unwrap())
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(
+            (at("torque"), at("oil_temperature")),
+            (vec![0.0, 0.0], vec![60.0, 60.0])
+        );
+        let refused = |constants: serde_json::Value| of(constants).read(bytes, &[]).unwrap_err().remove(0).message;
+        assert!(refused(json!({ "torque": "0 Nm", "loss": "3 W" })).contains("the file has a column for `loss`"));
+        assert!(refused(json!({ "torque": "0 W" })).contains('W'));
+        assert!(refused(json!({ "torgue": 0 })).contains("`torgue` is not a measured quantity"));
+        assert!(refused(json!({})).contains("there is no column for the torque"));
     }
 
     #[test]

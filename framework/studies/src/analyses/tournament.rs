@@ -1,14 +1,14 @@
 //! Every combination of the models of some mechanisms: ranked by a measurement, or their spread.
 
 mod candidates;
-mod entrants;
+pub(super) mod entrants;
 mod entry;
 mod field;
 mod marks;
 mod measurements;
 mod outcome;
 mod ranking;
-mod slot;
+pub(super) mod slot;
 mod spread;
 mod tables;
 

@@ -268,7 +268,11 @@ impl<'a> Finder<'a> {
         // A missing assigned column is already reported.
         let stated = |quantity: &str| self.written(quantity).is_some();
         let held = |quantity: &str| self.table.names.iter().any(|name| name == quantity);
-        if stated(due) || stated(&out) || held(due) || held(&out) {
+        let constant = |quantity: &str| self.entry.constants.get(quantity).is_some();
+        if [due, &out]
+            .into_iter()
+            .any(|name| stated(name) || held(name) || constant(name))
+        {
             return;
         }
         let message = format!("there is no column for the {due}; there are: {}", self.headers());

@@ -80,6 +80,10 @@ impl MeasuredEntry {
         if let Some(steady) = &self.steady {
             faults.extend(steady.faults());
         }
+        let constants = self.constants_in_si().unwrap_or_else(|list| {
+            faults.extend(list);
+            Vec::new()
+        });
         let condition = match self.rows.as_deref().map(Condition::parse) {
             Some(Err(wrong)) => {
                 faults.push(wrong_rows(wrong));
@@ -157,6 +161,7 @@ impl MeasuredEntry {
             };
             return Err(vec![fault(message, help)]);
         }
+        measured.add_constants(&constants)?;
         if let Some(condition) = &condition {
             measured.keep(condition).map_err(|wrong| vec![wrong])?;
         }

@@ -52,7 +52,11 @@ impl Entrants {
         Ok(all)
     }
 
-    fn new(
+    /// The entrants of one mechanism, whose entry is at a path of the study.
+    ///
+    /// # Errors
+    /// As [`Entrants::all`].
+    pub fn new(
         cx: &Planner<'_>,
         path: String,
         entry: &CandidatesEntry,
