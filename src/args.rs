@@ -38,6 +38,8 @@ pub enum Command {
     Models(ModelsArgs),
     /// Lists the designations of bearings and oils for gearbox files.
     Catalogue(CatalogueArgs),
+    /// Compares every model with the measured sets of a corpus.
+    Validate(ValidateArgs),
     /// Evaluates one model without a gearbox.
     Eval(EvalArgs),
     /// Prints a JSON Schema for editors.
@@ -346,7 +348,7 @@ pub struct ChoiceArgs {
 /// Arguments of `check`.
 #[derive(Debug, ClapArgs)]
 pub struct CheckArgs {
-    /// Gearbox or study files.
+    /// Gearbox or study files, and folders of a corpus.
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     #[command(flatten)]
@@ -557,6 +559,20 @@ pub enum CatalogueArg {
     Bearings,
     /// Lubricants.
     Oils,
+}
+
+/// Arguments of `validate`.
+#[derive(Debug, ClapArgs)]
+pub struct ValidateArgs {
+    /// Sets to compare with [default: all].
+    #[arg(value_name = "NAME")]
+    pub names: Vec<String>,
+    /// Folder of the sets, or of one set.
+    #[arg(long, value_name = "FOLDER", default_value = "corpus")]
+    pub corpus: PathBuf,
+    /// Folder for `validation.html`, `validation.md` and `cells.csv` [default: `results` in the folder of the sets].
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// Arguments of `eval`.

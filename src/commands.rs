@@ -22,6 +22,7 @@ pub mod schema;
 mod set;
 pub mod shards;
 pub mod solve;
+pub mod validate;
 
 use std::path::Path;
 use std::sync::OnceLock;

@@ -158,6 +158,7 @@ fn run(args: Args) -> Result<End, Failure> {
         Command::Report(args) => commands::report::run(&args, &mut out),
         Command::Merge(args) => commands::merge::run(&args, &mut out),
         Command::Models(args) => commands::models::run(&args, &mut out),
+        Command::Validate(args) => commands::validate::run(&args, &mut out),
         Command::Eval(args) => commands::eval::run(&args, &mut out),
         Command::Schema(args) => commands::schema::run(&args, &mut out),
         Command::Completions(args) => commands::completions::run(&args, &mut out),

@@ -14,6 +14,7 @@ mod common;
 mod comparison;
 mod conformance;
 mod consumption;
+mod corpus;
 mod counts;
 mod coverage;
 mod cycle;

@@ -13,6 +13,7 @@ use gearloss_studies::analyses::Stopped;
 use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 use gearloss_studies::checked::CheckedGearbox;
 use gearloss_studies::checked_study::CheckedStudy;
+use gearloss_studies::corpus::{Corpus, Set};
 
 use super::set;
 use crate::args::{CheckArgs, ChoiceArgs, Format};
@@ -29,6 +30,16 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
     let mut shown = BTreeSet::new();
     let mut end = End::Fine;
     for file in &args.files {
+        if file.is_dir() {
+            belongs_to_gearboxes(args, file)?;
+            match Corpus::read(language, &Disk::shared(), file) {
+                Ok(corpus) => out.text(&corpus_text(&corpus, file))?,
+                Err(list) => list
+                    .iter()
+                    .for_each(|findings| wrong.push_str(&findings.render_new(&mut shown))),
+            }
+            continue;
+        }
         if is_study(file) {
             belongs_to_gearboxes(args, file)?;
             let looked = CheckedStudy::read(language, &Disk::shared(), file, &UntilInterrupted);
@@ -85,7 +96,10 @@ fn print_json(language: &Language, args: &CheckArgs, deny: Option<Evidence>, out
     let mut files = Vec::new();
     for file in &args.files {
         let name = file.display().to_string();
-        let record = if is_study(file) {
+        let record = if file.is_dir() {
+            belongs_to_gearboxes(args, file)?;
+            FileRecord::of_corpus(name, Corpus::read(language, &Disk::shared(), file))
+        } else if is_study(file) {
             belongs_to_gearboxes(args, file)?;
             let study = CheckedStudy::read(language, &Disk::shared(), file, &UntilInterrupted);
             if study
@@ -123,15 +137,37 @@ fn belongs_to_gearboxes(args: &CheckArgs, file: &Path) -> Result<(), Failure> {
     ];
     match given.into_iter().find(|(_, given)| *given) {
         Some((option, _)) => Err(Failure::input(
-            format!("{option} does not apply to {}, which is a study", file.display()),
-            format!("use {option} with its gearbox, or check the study without it"),
+            if file.is_dir() {
+                format!("{option} does not apply to {}, which is a folder", file.display())
+            } else {
+                format!("{option} does not apply to {}, which is a study", file.display())
+            },
+            format!("use {option} with a gearbox, or check without it"),
         )),
         None => Ok(()),
     }
 }
 
+/// One line for each set.
+fn corpus_text(corpus: &Corpus, folder: &Path) -> String {
+    let line = |set: &Set| {
+        let rows = set
+            .rows
+            .map_or_else(|| "no data".to_owned(), |rows| format!("{rows} rows"));
+        let judges = match &set.source.needs {
+            Some(needs) => format!("needs: {needs}"),
+            None => "judges models".to_owned(),
+        };
+        format!("  {}: {}, {rows}, {judges}\n", set.name, set.source.kind.words())
+    };
+    let lines: String = corpus.sets.iter().map(line).collect();
+    let count = corpus.sets.len();
+    let sets = if count == 1 { "set" } else { "sets" };
+    format!("{}: fine, {count} {sets}\n{lines}", folder.display())
+}
+
 /// No progress, until Ctrl-C.
-struct UntilInterrupted;
+pub(super) struct UntilInterrupted;
 
 impl Progress for UntilInterrupted {
     fn begin(&self, label: &str, count: usize) -> Box<dyn Steps + '_> {

@@ -183,8 +183,16 @@ impl Language {
     /// # Panics
     /// If the crate that registers this kind of document is not linked.
     pub fn walk_study(&self, node: &Node) -> Walked {
-        match self.document(&self.others[STUDY]) {
-            Ok(study) => walk(node, &study.schema),
+        self.walk_document(STUDY, node)
+    }
+
+    /// Checks a document of another crate, by the name under which that crate registers its schema.
+    ///
+    /// # Panics
+    /// If no linked crate registers it.
+    pub fn walk_document(&self, name: &str, node: &Node) -> Walked {
+        match self.document(&self.others[name]) {
+            Ok(document) => walk(node, &document.schema),
             Err(faults) => Walked {
                 value: Value::Null,
                 findings: faults.clone(),

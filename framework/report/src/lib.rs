@@ -17,6 +17,7 @@ pub mod point;
 pub mod stated_ranges;
 pub mod tested;
 pub mod text;
+pub mod validation;
 mod views;
 
 // Figures as data and as SVG.

@@ -37,4 +37,7 @@ gearloss_framework::document::codes! {
     NO_CONVERGENCE = "E0605", "search found no solution",
         cause: "A least squares search did not converge, or the model has no value at its start.",
         help: "Start from other values, or narrow the ranges.";
+    CORPUS = "E0606", "incomplete or contradictory set of a corpus",
+        cause: "The source of a set lacks a key, its table does not have the columns, units or numbers that the source states, or nothing judges models by it.",
+        help: "Correct `data.csv`, `source.md` or `study.yaml` of the set.";
 }

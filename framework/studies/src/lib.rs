@@ -9,6 +9,9 @@ pub mod duty;
 pub mod measured;
 pub mod study;
 
+// Sets of data that judge models.
+pub mod corpus;
+
 // Analyses: how a study is run, entries and outcomes, results as columns.
 pub mod analyses;
 pub mod distributed;

@@ -10,6 +10,7 @@ use gearloss_studies::analyses::Work;
 use gearloss_studies::bearings::{BearingCard, bearing_cards};
 use gearloss_studies::checked::CheckedGearbox;
 use gearloss_studies::checked_study::CheckedStudy;
+use gearloss_studies::corpus::{Basis, Corpus, Set};
 use gearloss_studies::pairs::{PairCard, pair_cards};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -38,8 +39,8 @@ pub struct CheckRecord {
 pub struct FileRecord {
     /// File name as given in the command.
     file: String,
-    /// Kind of document by its first key; a gearbox if the key is missing.
-    #[schemars(extend("enum" = ["gearbox", "study"]))]
+    /// Kind of document by its first key, a gearbox if the key is missing; a folder is a corpus.
+    #[schemars(extend("enum" = ["gearbox", "study", "corpus"]))]
     kind: &'static str,
     /// True if it can be used.
     pub fine: bool,
@@ -60,6 +61,11 @@ enum Content {
         plan: Vec<WorkRecord>,
         /// Components of its gearboxes without a model, and coefficients that differ from their source.
         notes: Vec<String>,
+    },
+    /// A corpus.
+    Corpus {
+        /// Its sets.
+        sets: Vec<SetRecord>,
     },
     /// A gearbox that was built.
     Gearbox(Box<BuiltRecord>),
@@ -99,6 +105,20 @@ struct BuiltRecord {
     resolved: Option<Value>,
     /// True if `--deny` rejects it.
     denied: bool,
+}
+
+/// A set of a corpus.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "CorpusSet")]
+struct SetRecord {
+    /// Name of its folder.
+    set: String,
+    /// Where its numbers come from.
+    kind: Basis,
+    /// Number of rows of its data; null without data.
+    rows: Option<usize>,
+    /// What the program lacks to describe its product; null for a set that judges models.
+    needs: Option<String>,
 }
 
 /// A part of the work of an analysis.
@@ -168,6 +188,33 @@ impl CheckRecord {
 }
 
 impl FileRecord {
+    /// A folder of a corpus, as far as it could be read.
+    pub fn of_corpus(file: String, read: Result<Corpus, Vec<Findings>>) -> Self {
+        let set = |set: Set| SetRecord {
+            set: set.name,
+            kind: set.source.kind,
+            rows: set.rows,
+            needs: set.source.needs,
+        };
+        let (fine, findings, content) = match read {
+            Ok(corpus) => {
+                let sets = corpus.sets.into_iter().map(set).collect();
+                (true, Vec::new(), Content::Corpus { sets })
+            }
+            Err(list) => {
+                let all = list.iter().flat_map(|found| placed(&found.list, &found.sources));
+                (false, all.collect(), Content::Nothing {})
+            }
+        };
+        Self {
+            file,
+            kind: "corpus",
+            fine,
+            findings,
+            content,
+        }
+    }
+
     /// Errors and warnings that `run` would report for a study.
     pub fn of_study(file: String, study: CheckedStudy) -> Self {
         let refused = study.refused.iter().flat_map(|stopped| stopped.findings().iter());

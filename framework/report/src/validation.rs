@@ -1,0 +1,252 @@
+//! A corpus judged by its models: as a document, as text, as a page.
+
+use std::fmt::Write as _;
+
+use gearloss_framework::language::Language;
+use gearloss_studies::analyses::validation::{ValidatedModel, ValidationOutcome};
+use gearloss_studies::corpus::{Basis, CellOfSet, FEWEST_SETS, ModelOverSets, Set, Validated, over_sets};
+
+use crate::html::{Frame, Report, Section};
+use crate::page::Page;
+use crate::text::TextTable;
+use crate::views::validation::{CELLS, by_regime, cells, coordinates, ratio_text};
+
+/// What the document says before its tables.
+const HEAD: &str = "\
+# Validation: models against measured sets
+
+`gearloss validate` writes this page: every number below is computed by it from the sets of the [corpus](../corpus/README.md). No model is
+tuned. A ratio is the calculated over the measured loss: 1 is exact, 2 is twice the measured loss.
+
+- *ratio* is the geometric mean over the points of a set, *least* and *greatest* are those of single points; *bias*, *rms* and *max* are of the
+  calculated less the measured loss, in percent of the measured loss.
+- *in band* is the share of points whose 95 % band of the ratio contains 1. The band comes from what the set does not state, with the ranges of its
+  `source.md`, and from the accuracy of the measurement, which is taken as common to all points of a set.
+- *in range* is the share of points at which the model is inside the range that its source states.
+- Sets are counted, not points: points of one rig have its errors in common. Below three sets only their ratios are stated. From three sets on, the 95 %
+  band is that of the mean of a further set, by Student's t over the logarithms of the means of the sets.
+- A set whose constants a model was derived from is marked `seen` and not counted for it.
+";
+
+/// The document `docs/validation.md`.
+pub fn document(language: &Language, validated: &Validated<'_>) -> String {
+    let cells = validated.cells(language);
+    let mut out = HEAD.to_owned();
+    out.push_str("\n## Sets\n");
+    table(
+        &mut out,
+        &["set", "what", "kind", "trust", "points", "models judged"],
+        validated.sets.iter().map(|(set, results)| row_of_set(set, results)),
+    );
+    out.push_str("\n## Models over the measured sets\n");
+    out.push_str(&over_sets_text(&over_sets(&cells)));
+    for (set, results) in validated.sets.iter().filter(|(_, results)| !results.is_empty()) {
+        let _ = write!(
+            out,
+            "\n## {}\n{} ({}, trust {}).",
+            set.name,
+            set.source.title,
+            set.source.kind.words(),
+            set.source.trust.words()
+        );
+        let _ = writeln!(out, " {}", note_of(set));
+        for outcome in results {
+            of_outcome(&mut out, set, outcome, &cells);
+        }
+    }
+    out
+}
+
+/// Where a set comes from, as a sentence.
+fn note_of(set: &Set) -> String {
+    format!(
+        "By {}: {}; {}. Accuracy: {}.",
+        set.source.who, set.source.published, set.source.obtained, set.source.accuracy
+    )
+}
+
+fn row_of_set(set: &Set, results: &[ValidationOutcome]) -> Vec<String> {
+    let points: usize = results.iter().map(|outcome| outcome.validation.points).sum();
+    let models: usize = results.iter().map(|outcome| outcome.validation.models.len()).sum();
+    vec![
+        format!("[{0}](../corpus/{0}/source.md)", set.name),
+        set.source.title.clone(),
+        set.source.kind.words().to_owned(),
+        set.source.trust.words().to_owned(),
+        set.source
+            .needs
+            .as_ref()
+            .map_or_else(|| points.to_string(), |_| "-".to_owned()),
+        set.source
+            .needs
+            .as_ref()
+            .map_or_else(|| models.to_string(), |needs| format!("needs: {needs}")),
+    ]
+}
+
+/// The table over sets: one row for each model.
+fn over_sets_text(models: &[ModelOverSets]) -> String {
+    let mut out = String::new();
+    let row = |model: &ModelOverSets| {
+        let (first, last) = (model.sets.first(), model.sets.last());
+        let band = model.band.map_or_else(
+            || format!("- (fewer than {FEWEST_SETS} sets)"),
+            |(mean, [low, high])| format!("{} ({} to {})", ratio_text(mean), ratio_text(low), ratio_text(high)),
+        );
+        vec![
+            model.mechanism.clone(),
+            model.model.clone(),
+            model.sets.len().to_string(),
+            first.map_or_else(String::new, |(set, ratio)| format!("{} ({set})", ratio_text(*ratio))),
+            last.map_or_else(String::new, |(set, ratio)| format!("{} ({set})", ratio_text(*ratio))),
+            band,
+        ]
+    };
+    table(
+        &mut out,
+        &[
+            "mechanism",
+            "model",
+            "sets",
+            "least ratio of a set",
+            "greatest ratio of a set",
+            "mean and band of a further set",
+        ],
+        models.iter().map(row),
+    );
+    out
+}
+
+/// The models at one set.
+fn of_outcome(out: &mut String, set: &Set, outcome: &ValidationOutcome, all: &[CellOfSet]) {
+    let found = &outcome.validation;
+    let is_seen = |model: &ValidatedModel| {
+        let own =
+            |cell: &&CellOfSet| cell.set == set.name && cell.mechanism == found.mechanism && cell.model == model.name;
+        all.iter().filter(own).any(|cell| cell.seen)
+    };
+    if set.source.kind != Basis::Measured {
+        let _ = writeln!(out, "\nNo measurement: it is not counted above.");
+    }
+    let row = |model: &ValidatedModel| {
+        let mut row = cells(model);
+        if is_seen(model) {
+            row[0].push_str(" (seen)");
+        }
+        row
+    };
+    table(out, &CELLS, found.models.iter().map(row));
+    for (over, unit) in coordinates(found) {
+        let (mut head, rows) = by_regime(found, over, unit);
+        head[0] = format!("ratio by {}", over.replace('_', " "));
+        table(
+            out,
+            &head.iter().map(String::as_str).collect::<Vec<_>>(),
+            rows.into_iter(),
+        );
+    }
+    if !found.left_out.is_empty() {
+        let _ = writeln!(out, "\nNot judged: {}.", found.left_out.join("; "));
+    }
+}
+
+/// A table of Markdown.
+fn table(out: &mut String, head: &[&str], rows: impl Iterator<Item = Vec<String>>) {
+    let line = |cells: Vec<String>| {
+        format!(
+            "| {} |\n",
+            cells
+                .iter()
+                .map(|cell| cell.replace('|', "\\|"))
+                .collect::<Vec<_>>()
+                .join(" | ")
+        )
+    };
+    out.push('\n');
+    out.push_str(&line(head.iter().map(|cell| (*cell).to_owned()).collect()));
+    out.push_str(&line(vec!["---".to_owned(); head.len()]));
+    for row in rows {
+        out.push_str(&line(row));
+    }
+}
+
+/// What the terminal shows: a line for each set, the models over the measured sets, and the sets that wait.
+pub fn text(language: &Language, validated: &Validated<'_>) -> String {
+    let mut sets = TextTable::new(&[
+        "set", "kind", "points", "models", "closest", "ratio", "least", "greatest",
+    ]);
+    for (set, results) in &validated.sets {
+        for found in results.iter().map(|outcome| &outcome.validation) {
+            let Some(best) = found.models.first() else { continue };
+            sets.row(vec![
+                set.name.clone(),
+                set.source.kind.words().to_owned(),
+                found.points.to_string(),
+                found.models.len().to_string(),
+                best.name.clone(),
+                ratio_text(best.all.ratio),
+                ratio_text(best.all.least),
+                ratio_text(best.all.greatest),
+            ]);
+        }
+    }
+    let mut models = TextTable::new(&["mechanism", "model", "measured sets", "ratio from", "to"]);
+    for model in over_sets(&validated.cells(language)) {
+        let ends = [model.sets.first(), model.sets.last()];
+        let [from, to] = ends.map(|set| set.map_or_else(String::new, |(_, ratio)| ratio_text(*ratio)));
+        models.row(vec![
+            model.mechanism,
+            model.model,
+            model.sets.len().to_string(),
+            from,
+            to,
+        ]);
+    }
+    let waiting = validated
+        .sets
+        .iter()
+        .filter_map(|(set, _)| Some((set, set.source.needs.as_ref()?)));
+    let waiting: String = waiting
+        .map(|(set, needs)| {
+            format!(
+                "{} ({}) judges nothing yet, needs: {needs}\n",
+                set.name,
+                set.source.kind.words()
+            )
+        })
+        .collect();
+    format!("{}\n{}\n{waiting}", sets.render(), models.render())
+}
+
+/// The page with the pictures of every set, and its head.
+pub fn page(language: &Language, validated: &Validated<'_>, version: &str) -> (Report, Frame) {
+    let mut report = Report::default();
+    for (set, results) in &validated.sets {
+        for outcome in results {
+            let mut section = Section {
+                name: format!("{}-{}", set.name, outcome.head.analysis),
+                title: set.source.title.clone(),
+                about: note_of(set),
+                note: (set.source.kind != Basis::Measured).then(|| "This set is no measurement.".to_owned()),
+                ..Section::default()
+            };
+            section.add(Page::from_outcome(outcome));
+            section.headline = section.headline.map(|headline| format!("{}: {headline}", set.name));
+            report.sections.push(section);
+        }
+    }
+    let judging = validated.sets.iter().filter(|(_, results)| !results.is_empty());
+    let frame = Frame {
+        title: "Models against measured sets".to_owned(),
+        question: "Which model is right, by how much, on whose data?".to_owned(),
+        measurements: judging
+            .map(|(set, _)| format!("{}: {}", set.name, note_of(set)))
+            .collect(),
+        conditions: "Each set has the conditions of its study; no model is tuned.".to_owned(),
+        version: version.to_owned(),
+        inputs: String::new(),
+        packages: language.registry().packages().iter().map(ToString::to_string).collect(),
+        study: String::new(),
+    };
+    (report, frame)
+}
