@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use gearloss_framework::coefficients::COEFFICIENTS;
 use gearloss_framework::document::records_by_type;
 use gearloss_framework::language::{Kind, Language};
-use gearloss_framework::registry::{Entry, Files, MechanismEntry, RatingPlugin};
+use gearloss_framework::registry::{ComparedSet, Entry, Files, MechanismEntry, RatingPlugin};
 use gearloss_framework::resolve::RATINGS;
 use serde_json::{Map, Value};
 
@@ -199,6 +199,7 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
         writeln!(out, "Evidence: {} ({}).", graded.grade.name(), graded.because).unwrap();
     }
     writeln!(out, "Source: {}.\n", entry.source).unwrap();
+    measurements(out, entry);
     for limit in entry.limits {
         writeln!(
             out,
@@ -248,6 +249,29 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
     )
     .unwrap();
     checks(out, entry);
+}
+
+/// What the measured sets of the corpus say about a model.
+fn measurements(out: &mut String, entry: &Entry) {
+    let compared = entry.compared();
+    // Most models have no set: the page of the corpus says what is missing.
+    let Some(words) = compared.words() else { return };
+    let set = |set: &ComparedSet| {
+        let [least, greatest] = set.ratio.map(significant);
+        let ratio = if least == greatest {
+            least
+        } else {
+            format!("{least} to {greatest}")
+        };
+        format!("{} {ratio}", set.set)
+    };
+    let sets: Vec<String> = compared.sets.iter().map(set).collect();
+    writeln!(
+        out,
+        "Measurements: {words} ([validation](../validation.md)): {}.\n",
+        sets.join(", ")
+    )
+    .unwrap();
 }
 
 /// The check values of a model or a rating; `gearloss models --checks` prints them with the computed ones.

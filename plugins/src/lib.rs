@@ -26,6 +26,7 @@ pub mod seal;
 pub mod sets;
 pub mod synchronizer;
 pub mod tooth_friction;
+pub mod validated;
 
 /// Names this crate where `use gearloss_plugins as _;` is not enough: the linker of WebAssembly drops a crate of which nothing is called.
 #[inline(never)]

@@ -189,6 +189,8 @@ pub struct GearboxPage {
     pub place: String,
     /// Losses of the parts of the drawing at that point, with the first model set, as JSON: pairs of path and W.
     pub losses: String,
+    /// How much of the loss at that point is from models that no measured set judges; absent if it is little.
+    pub unjudged: Option<String>,
     /// Pictures of that point.
     #[serde(skip)]
     pub pictures: Vec<Picture>,

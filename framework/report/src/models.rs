@@ -188,6 +188,23 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
         ));
     }
     ranges_and_evidence(&mut out, entry);
+    if let Some(words) = entry.compared_in_words(None) {
+        out.line(format!("measurements: {words}"));
+    }
+    for set in entry.compared().sets {
+        let [least, greatest] = set.ratio.map(significant);
+        let ratio = if least == greatest {
+            least
+        } else {
+            format!("{least} to {greatest}")
+        };
+        let seen = if set.seen {
+            ", from which its constants were derived"
+        } else {
+            ""
+        };
+        out.line(format!("  {}: {ratio}{seen}", set.set));
+    }
     out.into_text()
 }
 

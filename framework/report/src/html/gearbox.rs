@@ -51,6 +51,7 @@ pub fn gearbox_page(cx: &Planner<'_>, name: &str, gearbox: &Gearbox) -> Result<G
         losses: point.as_ref().map_or_else(String::new, |p| {
             visible_json(&serde_json::to_string(&p.losses).unwrap_or_default()).into_owned()
         }),
+        unjudged: point.as_ref().and_then(|p| p.unjudged.clone()),
         pictures: point.iter().flat_map(|p| p.pictures.clone()).collect(),
         oil: point.as_ref().map(|p| p.oil.clone()).unwrap_or_default(),
         point_tables: point.map(|p| p.tables).unwrap_or_default(),

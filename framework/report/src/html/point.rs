@@ -6,7 +6,7 @@ use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::evaluate::{Point, Reading, Solution};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::mechanism::bearing::BearingPart;
-use gearloss_framework::registry::Evidence;
+use gearloss_framework::registry::{Evidence, kind_of};
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::axes::{speeds, torques};
 use gearloss_studies::analyses::numbers::RPM;
@@ -55,6 +55,8 @@ pub struct Page {
     pub pictures: Vec<Picture>,
     /// Cross-section of the housing with its oil, with the first set.
     pub oil: String,
+    /// How much of the loss with the first set is from models that no measured set judges; absent if it is little.
+    pub unjudged: Option<String>,
 }
 
 /// Solves the point with every set.
@@ -62,7 +64,7 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
     let first = sets.first()?;
     let (gear, given) = place(runner, &first.transmission)?;
     let (mut tables, mut pictures, mut rests, mut words) = (Vec::new(), Vec::new(), Vec::new(), String::new());
-    let (mut losses, mut oil) = (Vec::new(), String::new());
+    let (mut losses, mut oil, mut unjudged) = (Vec::new(), String::new(), None);
     for (i, b) in sets.iter().enumerate() {
         let t = &b.transmission;
         let points = runner.listed(t, &gear, vec![given]);
@@ -99,6 +101,7 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
                 .unwrap_or_default();
             if solution.has_flow() {
                 losses = losses_of_parts(t, &solution);
+                unjudged = unjudged_share(b, &solution);
                 tables.push(bearings(b, &solution));
                 tables.push(dips(t, &solution));
                 tables.extend(oil_flows(&solution));
@@ -134,6 +137,47 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
         losses,
         pictures,
         oil,
+        unjudged,
+    })
+}
+
+/// Share of the loss from models without a measured set from which a report says so. A convention: below, the sentence would be noise.
+const MUCH: f64 = 0.25;
+
+/// Share of the loss of a model from which it is named.
+const NAMED: f64 = 0.05;
+
+/// How much of the loss is from models that no measured set of the corpus judges, with the largest of them; absent if it is little. Models
+/// whose law the user states rest on the user's own data.
+fn unjudged_share(b: &Built<'_>, solution: &Solution<'_>) -> Option<String> {
+    let t = &b.transmission;
+    let total = solution.loss().filter(|loss| *loss > 0.0)?;
+    let mut models: Vec<(String, f64)> = Vec::new();
+    for (part, loss) in solution.parts() {
+        let entry = &t.instances()[part.notes.instance()].entry;
+        let kind = kind_of(&b.resolved.value, &part.path);
+        if entry.is_user_defined() || !entry.compared().of_kind(kind.as_deref()).is_empty() {
+            continue;
+        }
+        let name = format!("{}/{}", entry.mechanism, entry.name);
+        match models.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, watts)) => *watts += loss.watts(),
+            None => models.push((name, loss.watts())),
+        }
+    }
+    models.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let share = models.iter().map(|(_, watts)| watts).sum::<f64>() / total;
+    let percent = |share: f64| number(Some(100.0 * share), 0);
+    let named = models.iter().filter(|(_, watts)| watts / total >= NAMED);
+    let named: Vec<String> = named
+        .map(|(name, watts)| format!("{name} {} %", percent(watts / total)))
+        .collect();
+    (share >= MUCH).then(|| {
+        format!(
+            "{} % of the loss at the report's point is from models that no measured set of the corpus judges: {}",
+            percent(share),
+            named.join(", ")
+        )
     })
 }
 

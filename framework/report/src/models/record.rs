@@ -6,7 +6,9 @@ use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::loss::{Limit, Observed, Term};
 use gearloss_framework::mechanism::QuantityDoc;
 use gearloss_framework::rating::Figure;
-use gearloss_framework::registry::{Check, Entry, Evidence, Graded, MechanismEntry, Package, RatingPlugin};
+use gearloss_framework::registry::{
+    Check, ComparedSet, Entry, Evidence, Graded, MechanismEntry, Package, RatingPlugin,
+};
 use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
@@ -117,8 +119,26 @@ struct ModelRecord {
     limits: &'static [Limit],
     /// Evidence grades of the formula and the defaults.
     evidence: Vec<GradeRecord>,
+    /// Measured sets of the corpus that judge it, alone or nested in another model.
+    measured_sets: Vec<MeasuredSetRecord>,
     /// Cases with known results.
     checks: Vec<CheckValuesRecord>,
+}
+
+/// A model at one measured set.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "MeasuredSet")]
+struct MeasuredSetRecord {
+    /// Name of the set.
+    set: &'static str,
+    /// Kinds of the judged components, joined by `+`; empty for components without kinds.
+    part: &'static str,
+    /// Whether constants of the model were derived from the set.
+    seen: bool,
+    /// Calculated over measured loss, geometric mean over the points; the least over nested models. [-]
+    ratio_least: f64,
+    /// The greatest over nested models. [-]
+    ratio_greatest: f64,
 }
 
 /// A rating.
@@ -286,7 +306,26 @@ impl ModelRecord {
             observed: entry.observed,
             limits: entry.limits,
             evidence: entry.evidence.iter().map(GradeRecord::new).collect(),
+            measured_sets: entry.compared().sets.into_iter().map(MeasuredSetRecord::from).collect(),
             checks: entry.checks.iter().map(CheckValuesRecord::new).collect(),
+        }
+    }
+}
+
+impl From<ComparedSet> for MeasuredSetRecord {
+    fn from(of: ComparedSet) -> Self {
+        let ComparedSet {
+            set,
+            part,
+            seen,
+            ratio: [ratio_least, ratio_greatest],
+        } = of;
+        Self {
+            set,
+            part,
+            seen,
+            ratio_least,
+            ratio_greatest,
         }
     }
 }

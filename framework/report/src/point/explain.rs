@@ -4,7 +4,7 @@ use gearloss_framework::coefficients::Changed;
 use gearloss_framework::evaluate::Solution;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::{Step, Trace};
-use gearloss_framework::registry::{Entry, Instance};
+use gearloss_framework::registry::{Entry, Instance, kind_of};
 use gearloss_framework::resolve::{Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::numbers::RPM;
@@ -29,6 +29,10 @@ pub fn explain_part(
     let (loss, trace) = solution.explain(part);
     let entry = &transmission.instances()[info.notes.instance()].entry;
     out.text(&source(&info.path, entry));
+    let kind = kind_of(&resolved.value, &info.path);
+    if let Some(words) = entry.compared_in_words(kind.as_deref()) {
+        out.line(format!("  measurements: {words}"));
+    }
     let factor = match info.loss_factor {
         1.0 => String::new(),
         factor => format!(", loss factor {}", significant(factor)),
