@@ -206,7 +206,7 @@ pub fn text(language: &Language, validated: &Validated<'_>) -> String {
         .sets
         .iter()
         .filter_map(|(set, _)| Some((set, set.source.needs.as_ref()?)));
-    let waiting: String = waiting
+    let waiting: Vec<String> = waiting
         .map(|(set, needs)| {
             format!(
                 "{} ({}) judges nothing yet, needs: {needs}\n",
@@ -215,7 +215,7 @@ pub fn text(language: &Language, validated: &Validated<'_>) -> String {
             )
         })
         .collect();
-    format!("{}\n{}\n{waiting}", sets.render(), models.render())
+    format!("{}\n{}\n{}", sets.render(), models.render(), waiting.concat())
 }
 
 /// The page with the pictures of every set, and its head.

@@ -35,35 +35,10 @@ pub(super) fn check(text: &str, source: u16, entry: &SourceEntry, places: &Place
         ]);
     };
     let stated: Vec<(&str, &StatedColumn)> = entry.columns.iter().collect();
-    let mut found = Vec::new();
-    for (i, cell) in head.iter().enumerate() {
-        let is_there = stated.iter().any(|(name, _)| *name == cell.text);
-        match stated.get(i) {
-            Some((name, _)) if *name == cell.text => {}
-            Some((name, _)) if is_there => found.push(at(
-                cell,
-                format!(
-                    "column {} is `{}`, but the source states `{name}` there",
-                    i + 1,
-                    cell.text
-                ),
-                "are columns swapped? write them in the order of `columns` of source.md, or correct it".to_owned(),
-            )),
-            _ if is_there => {}
-            _ => {
-                let close = did_you_mean(cell.text, stated.iter().map(|(name, _)| *name));
-                let help = match close {
-                    Some(close) => format!("write `{close}`, or add the column under `columns` of source.md"),
-                    None => format!("add `{}` under `columns` of source.md", cell.text),
-                };
-                found.push(at(
-                    cell,
-                    format!("the source does not state the column `{}`", cell.text),
-                    help,
-                ));
-            }
-        }
-    }
+    let mut found: Vec<Diagnostic> = names(head, &stated)
+        .into_iter()
+        .map(|(cell, message, help)| at(cell, message, help))
+        .collect();
     for (name, _) in &stated {
         if head.iter().all(|cell| cell.text != *name) {
             let missing = Diagnostic::error(format!("columns.{name}"), format!("data.csv has no column `{name}`"));
@@ -120,6 +95,41 @@ pub(super) fn check(text: &str, source: u16, entry: &SourceEntry, places: &Place
     if found.is_empty() { Ok(rows.len()) } else { Err(found) }
 }
 
+/// A cell with what is wrong and how to correct it.
+type Wrong<'c, 't> = (&'c Cell<'t>, String, String);
+
+/// Names in the table that the source does not state, or states in another order.
+fn names<'c, 't>(head: &'c [Cell<'t>], stated: &[(&str, &StatedColumn)]) -> Vec<Wrong<'c, 't>> {
+    let wrong = |(i, cell): (usize, &'c Cell<'t>)| {
+        let is_there = stated.iter().any(|(name, _)| *name == cell.text);
+        match stated.get(i) {
+            Some((name, _)) if *name == cell.text => None,
+            Some((name, _)) if is_there => {
+                let message = format!(
+                    "column {} is `{}`, but the source states `{name}` there",
+                    i + 1,
+                    cell.text
+                );
+                let help = "are columns swapped? write them in the order of `columns` of source.md, or correct it";
+                Some((cell, message, help.to_owned()))
+            }
+            _ if is_there => None,
+            _ => {
+                let help = match did_you_mean(cell.text, stated.iter().map(|(name, _)| *name)) {
+                    Some(close) => format!("write `{close}`, or add the column under `columns` of source.md"),
+                    None => format!("add `{}` under `columns` of source.md", cell.text),
+                };
+                Some((
+                    cell,
+                    format!("the source does not state the column `{}`", cell.text),
+                    help,
+                ))
+            }
+        }
+    };
+    head.iter().enumerate().filter_map(wrong).collect()
+}
+
 /// Unit, least and greatest number of a column; none of a column of text.
 fn column_of(column: &StatedColumn) -> Result<Option<(&str, f64, f64)>, &'static str> {
     match (&column.unit, column.from, column.to) {
@@ -130,12 +140,7 @@ fn column_of(column: &StatedColumn) -> Result<Option<(&str, f64, f64)>, &'static
 }
 
 /// Finds the first cell that is no number or beyond the stated ends, and ends that no number reaches.
-fn numbers<'c, 't>(
-    name: &str,
-    unit: &str,
-    [from, to]: [f64; 2],
-    cells: &[&'c Cell<'t>],
-) -> Result<(), (&'c Cell<'t>, String, String)> {
+fn numbers<'c, 't>(name: &str, unit: &str, [from, to]: [f64; 2], cells: &[&'c Cell<'t>]) -> Result<(), Wrong<'c, 't>> {
     let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
     for cell in cells {
         let Some(number) = cell.text.parse::<f64>().ok().filter(|x| x.is_finite()) else {

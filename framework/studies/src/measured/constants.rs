@@ -7,19 +7,16 @@ use super::columns::KNOWN;
 use super::{Measured, MeasuredEntry, MeasuredFault};
 
 impl MeasuredEntry {
-    /// The constants in SI, with their names.
-    ///
-    /// # Errors
-    /// Unknown quantities, texts, and values that are not quantities of their kind.
-    pub(super) fn constants_in_si(&self) -> Result<Vec<(&'static str, f64)>, Vec<MeasuredFault>> {
-        let (mut found, mut faults) = (Vec::new(), Vec::new());
+    /// The constants in SI, with their names; wrong ones are added to the faults.
+    pub(super) fn constants_in_si(&self, faults: &mut Vec<MeasuredFault>) -> Vec<(&'static str, f64)> {
+        let mut found = Vec::new();
         for (name, written) in self.constants.iter() {
             match constant(name, written) {
                 Ok(constant) => found.push(constant),
                 Err((message, help)) => faults.push(MeasuredFault::new(format!("constants.{name}"), message, help)),
             }
         }
-        if faults.is_empty() { Ok(found) } else { Err(faults) }
+        found
     }
 }
 

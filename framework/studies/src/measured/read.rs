@@ -80,10 +80,7 @@ impl MeasuredEntry {
         if let Some(steady) = &self.steady {
             faults.extend(steady.faults());
         }
-        let constants = self.constants_in_si().unwrap_or_else(|list| {
-            faults.extend(list);
-            Vec::new()
-        });
+        let constants = self.constants_in_si(&mut faults);
         let condition = match self.rows.as_deref().map(Condition::parse) {
             Some(Err(wrong)) => {
                 faults.push(wrong_rows(wrong));
