@@ -28,8 +28,9 @@ const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 const OPEN: [&str; 6] = ["bound", "set", "terms_w", "value", "model", "limit_values"];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 7] = [
+const OPTIONAL: [&str; 8] = [
     "data",
+    "oil_network",
     "preloads",
     "turned_at",
     "file",
@@ -111,6 +112,7 @@ fn points() -> Vec<Value> {
             ],
         ),
         solve(["tests/results/self_locking.yaml", "--speed", "-3000 rpm"], &[]),
+        solve(["tests/results/oil_network.yaml", "--speed", "3000 rpm"], &[]),
         solve(
             ["tests/trade/preloaded-bearings/gearbox.yaml", "--speed", "1500 rpm"],
             &[],
