@@ -108,33 +108,7 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
     // Without a power flow there are no loads and losses.
     let flow = solution.has_flow();
     if flow && !transmission.supports().is_empty() {
-        let induced = |pair: &BearingPair| pair.spring.is_none() && pair.preload.is_none();
-        let paired = transmission.pairs().iter().any(induced);
-        let mut head = vec!["bearing", "radial N", "axial N", "tilting Nm"];
-        if paired {
-            head.insert(3, "of it induced N");
-        }
-        let mut loads = TextTable::new(&head);
-        let row = |path: String, load: SupportLoad, induced: Option<f64>| {
-            let mut row = vec![
-                path,
-                fixed(load.radial, 1),
-                fixed(load.axial, 1),
-                fixed(load.tilting, 3),
-            ];
-            if paired {
-                row.insert(3, number(induced, 1));
-            }
-            row
-        };
-        for (i, path) in transmission.supports().iter().enumerate() {
-            loads.row(row(path.clone(), solution.load(i), solution.induced(i, false)));
-            if let Some(load) = solution.most_loaded(i) {
-                let induced = solution.induced(i, true);
-                loads.row(row(format!("{path}, most loaded planet"), load, induced));
-            }
-        }
-        blocks.table(loads);
+        blocks.table(bearing_loads(transmission, solution));
         for preload in preload_records(transmission, solution) {
             blocks.text(&(preload.sentence() + "\n"));
         }
@@ -196,6 +170,37 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
     blocks.append(temperature_blocks(transmission, found));
     blocks.text(&outside_ranges(solved));
     blocks
+}
+
+/// Loads of the bearings of a point with a power flow.
+fn bearing_loads(transmission: &Transmission, solution: &Solution<'_>) -> TextTable {
+    let induced = |pair: &BearingPair| pair.spring.is_none() && pair.preload.is_none();
+    let paired = transmission.pairs().iter().any(induced);
+    let mut head = vec!["bearing", "radial N", "axial N", "tilting Nm"];
+    if paired {
+        head.insert(3, "of it induced N");
+    }
+    let mut loads = TextTable::new(&head);
+    let row = |path: String, load: SupportLoad, induced: Option<f64>| {
+        let mut row = vec![
+            path,
+            fixed(load.radial, 1),
+            fixed(load.axial, 1),
+            fixed(load.tilting, 3),
+        ];
+        if paired {
+            row.insert(3, number(induced, 1));
+        }
+        row
+    };
+    for (i, path) in transmission.supports().iter().enumerate() {
+        loads.row(row(path.clone(), solution.load(i), solution.induced(i, false)));
+        if let Some(load) = solution.most_loaded(i) {
+            let induced = solution.induced(i, true);
+            loads.row(row(format!("{path}, most loaded planet"), load, induced));
+        }
+    }
+    loads
 }
 
 /// Loss and efficiency in one line: what a point is solved for.

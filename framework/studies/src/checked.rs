@@ -95,7 +95,12 @@ impl CheckedGearbox {
             .map(|warning| self.gearbox.places.place(warning));
         let supply = self.short_of_oil();
         let built = self.transmission.warnings.iter().cloned();
-        built.chain(overloaded).chain(outside).chain(dry).chain(supply).collect()
+        built
+            .chain(overloaded)
+            .chain(outside)
+            .chain(dry)
+            .chain(supply)
+            .collect()
     }
 
     /// What the oil network lacks at the rated speed and at a tenth of it, with places.

@@ -54,6 +54,7 @@ pub struct PreloadBody {
     /// Node of the thermal network with its temperature; default: the node with the name of the shaft or gear, `casing` of the housing, if there is
     /// one, as in `network: auto`.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
     pub node: Option<String>,
     /// Temperature above that of the oil of the bearings; negative below. Default, unless there is a temperature or a node: zero. [K]
     #[serde(skip_serializing_if = "Option::is_none")]

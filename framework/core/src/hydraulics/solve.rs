@@ -469,7 +469,7 @@ mod tests {
     #[test]
     fn lanes_have_the_bits_of_single_points_and_duals_the_derivatives() {
         let network = printed();
-        let viscosities: Vec<f64> = (0..Lane::COUNT).map(|i| 1e-6 * 1.6_f64.powi(i as i32)).collect();
+        let viscosities: Vec<f64> = (0..Lane::COUNT).map(|i| 1e-6 * 1.6_f64.powf(i as f64)).collect();
         let nu = |i: usize| viscosities[i];
         let speed = |i: usize| 40.0 * i as f64;
         let mut lanes = Work::new(&network);

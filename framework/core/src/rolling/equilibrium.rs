@@ -283,13 +283,8 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
         u[1] += radial_guess * load[1] / radial;
         u[2] += radial_guess * load[2] / radial;
     }
-    if let Some(start) = start {
-        for (i, near) in start
-            .array()
-            .into_iter()
-            .enumerate()
-            .filter(|(i, _)| !problem.is_held[*i])
-        {
+    for (i, near) in start.into_iter().flat_map(Axes::array).enumerate() {
+        if !problem.is_held[i] {
             u[i] = near * lengths[i];
         }
     }

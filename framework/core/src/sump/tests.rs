@@ -40,8 +40,8 @@ fn space(discs: &[Disc], up: [f64; 3]) -> Space {
 #[track_caller]
 fn printed(value: f64, digits: &str) {
     let expected: f64 = digits.parse().unwrap();
-    let decimals = digits.split('.').nth(1).map_or(0, str::len) as i32;
-    let half = 0.5000001 * 10.0_f64.powi(-decimals);
+    let decimals = digits.split('.').nth(1).map_or(0, str::len);
+    let half = 0.5000001 * 10.0_f64.powf(-(decimals as f64));
     assert!((value - expected).abs() <= half, "{value} is not {digits}");
 }
 

@@ -108,11 +108,9 @@ impl Transmission {
         let load_factors = load_factors(supports, ports, &mut found);
         let imported = imported_loads(entry, files, ports, &states, supports, &mut found);
         let (oils, mut more) = oils.finish();
-        let can_pair = found.is_empty() && more.is_empty();
-        let pairs = loads.as_ref().filter(|_| can_pair).map(|loads| {
-            let of = (&models, &designs[..], &oils);
-            pairs(loads, &frame, of, &mut found, &mut warnings)
-        });
+        let sound = loads.as_ref().filter(|_| found.is_empty() && more.is_empty());
+        let of = (&models, &designs[..], &oils);
+        let pairs = sound.map(|loads| pairs(loads, &frame, of, &mut found, &mut warnings));
         classify(&mut found, codes::SUPPORT);
         classify(&mut more, codes::LUBRICANT);
         // Errors of an oil cause many of the later ones.

@@ -16,8 +16,8 @@ use gearloss_studies::points::{Given, OilTemperature, evidence};
 use super::PageTable;
 use super::gearbox::table;
 use crate::picture::{Picture, Screen, Waterfall};
-use crate::schematic::oil_section;
 use crate::point::flow_rows;
+use crate::schematic::oil_section;
 use crate::text::{fixed, number};
 
 /// The point of the report: from the study, or the largest torque and speed of its first grid.

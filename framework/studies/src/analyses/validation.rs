@@ -58,6 +58,7 @@ pub struct ValidationEntry {
     pub judged: CandidatesEntry,
     /// Paths of the judged components, such as `bearings.B1`; default: all of the mechanism.
     #[serde(default)]
+    #[schemars(extend("x-refers-to" = "component"))]
     pub components: Vec<String>,
     /// What the measured loss contains.
     #[serde(default)]

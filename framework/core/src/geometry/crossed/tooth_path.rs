@@ -63,7 +63,7 @@ impl ToothPath {
         let turning = self.turning();
         self.mean(|t| {
             let speed = turning.speed(t);
-            (t * speed + turning.least.norm_squared() * turning.logarithm(t)) / 2.0
+            f64::midpoint(t * speed, turning.least.norm_squared() * turning.logarithm(t))
         })
     }
 
