@@ -54,7 +54,7 @@ impl Inside {
         let sections = if drawn {
             drawn_sections(&stated, found)?
         } else {
-            vec![of_gears(entry, &stated, gears, axes)?]
+            vec![of_gears(entry, &stated, gears, axes, memory)?]
         };
         let height = up[1] * datum[0] + up[2] * datum[1];
         let input = Input {
@@ -160,7 +160,13 @@ fn drawn_section(section: &InsideSection) -> Result<Outline, (String, &'static s
 }
 
 /// The hull of the gears with gaps.
-fn of_gears(entry: &GearboxEntry, stated: &InsideEntry, gears: &[GearSeat], axes: &Axes) -> Option<Outline> {
+fn of_gears(
+    entry: &GearboxEntry,
+    stated: &InsideEntry,
+    gears: &[GearSeat],
+    axes: &Axes,
+    memory: &mut Memory,
+) -> Option<Outline> {
     if gears.iter().any(|gear| gear.ring) {
         return None;
     }
@@ -182,7 +188,7 @@ fn of_gears(entry: &GearboxEntry, stated: &InsideEntry, gears: &[GearSeat], axes
     let middle = 0.5 * (ends[0] + ends[1]);
     let half = 0.5 * stated.width.unwrap_or(ends[1] - ends[0] + 2.0 * axial);
     Some(Outline {
-        corners: hull(&circles, CHORDS),
+        corners: memory.repeat("hull of the gears", circles, |circles| hull(circles, CHORDS)),
         range: [middle - half, middle + half],
     })
 }
