@@ -9,7 +9,7 @@ pub fn add(outcome: &ValidationOutcome, page: &mut Page) {
     let found = &outcome.validation;
     let Some(best) = found.models.first() else { return };
     page.headline = Some(format!(
-        "Of {} models of {}, `{}` is closest to the measurement: {} times its losses ({} to {}) at {} points",
+        "Of {} models of {}, `{}` is closest to the data: {} times their losses ({} to {}) at {} points",
         found.models.len(),
         found.mechanism,
         best.name,
