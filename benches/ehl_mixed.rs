@@ -46,7 +46,7 @@ fn one_mesh(c: &mut Criterion, language: &Language, gearbox: &Gearbox) {
         .resolve(language, &choice)
         .unwrap_or_else(|f| panic!("{}", f.render()));
     let t = build(language, gearbox, &choice);
-    let (_, part) = t.meshes().next().unwrap();
+    let (.., part) = t.cylindrical_meshes().next().unwrap();
     let part: Arc<MeshPart> = Arc::new(part.clone());
     let files = Files::default();
     let mut made = Build::new(language.registry(), &files);

@@ -101,7 +101,7 @@ fn torque(power: f64, rpm: f64) -> f64 {
 }
 
 fn pairs(t: &Transmission) -> [Pair; 2] {
-    let pairs: Vec<Pair> = t.meshes().map(|(_, part)| part.pair).collect();
+    let pairs: Vec<Pair> = t.cylindrical_meshes().map(|(.., part)| part.pair).collect();
     [pairs[0], pairs[1]]
 }
 

@@ -112,11 +112,11 @@ fn generate(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
         bearing_node(bearing, &mut builder, &casing, &sump);
     }
     gears_to_oil(entry, &bodies, &mut builder, &sump);
-    for (id, mesh) in entry.meshes.iter() {
-        let [first, second] = mesh.gears.each_ref().map(|gear| builder.of_gear(gear));
+    for (path, gears, _) in entry.all_meshes() {
+        let id = path.split_once('.').map_or("", |(_, id)| id);
+        let [first, second] = gears.each_ref().map(|gear| builder.of_gear(gear));
         if let (Some(first), Some(second)) = (first, second) {
-            let copies = mesh
-                .gears
+            let copies = gears
                 .iter()
                 .map(|gear| bodies.copies_of_gear(gear))
                 .fold(1.0, f64::max);

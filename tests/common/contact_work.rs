@@ -16,7 +16,7 @@ use gearloss_plugins::tooth_friction::ehl_mixed::{EhlMixed, Params};
 pub fn laws(language: &Language, resolved: &Resolved, t: &Transmission) -> Vec<(EhlMixed, Path)> {
     let files = Files::default();
     let build = Build::new(language.registry(), &files);
-    let law = |(path, part): (&str, &gearloss_framework::mechanism::gear_mesh::MeshPart)| {
+    let law = |(_, path, part): (usize, &str, &gearloss_framework::mechanism::gear_mesh::MeshPart)| {
         let model = lookup(&resolved.value, &format!("{path}.model")).unwrap();
         let mut friction = model["tooth_friction"].clone();
         friction.as_object_mut().unwrap().remove("type");
@@ -27,13 +27,13 @@ pub fn laws(language: &Language, resolved: &Resolved, t: &Transmission) -> Vec<(
         let path = Path::new(&part.pair, sharing, law.order()).unwrap();
         (law, path)
     };
-    t.meshes().map(law).collect()
+    t.cylindrical_meshes().map(law).collect()
 }
 
 /// Ways along the path, passes over its places, and places, of each mesh; nothing of one that rests or carries nothing.
 pub fn work(laws: &[(EhlMixed, Path)], solution: &Solution<'_>) -> Vec<(u32, u32, usize)> {
     let of = |(i, (law, path)): (usize, &(EhlMixed, Path))| {
-        let at = solution.mesh_at(i);
+        let at = solution.mesh_at(i).unwrap();
         if at.torque == 0.0 || at.speed == 0.0 {
             return (0, 0, 0);
         }

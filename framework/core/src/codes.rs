@@ -68,6 +68,12 @@ gearloss_document::codes! {
     OIL_SPACE = "E0314", "impossible oil space",
         cause: "The inside of the housing is not a polygon, gears reach out of it, or it holds less oil than is filled.",
         help: "Correct `housing.inside` or the volume of the oil.";
+    AXES = "E0320", "axes do not fit each other",
+        cause: "The axes of two gears in mesh, of both members of a bearing or of a planetary set are not parallel or do not cross as they have to.",
+        help: "Correct `axis` of a shaft, or describe the mesh in the section for such axes: `meshes`, `bevel_meshes`, `worm_meshes` or `crossed_helical_meshes`.";
+    CROSSED = "E0321", "impossible pair of gears on axes that cross",
+        cause: "The data of a bevel, hypoid, worm or crossed helical pair contradict each other or its axes, or a key does not apply to such gears.",
+        help: "Correct the value that the message names; shaft angle, offset and positions follow from the axes.";
     THERMAL = "E0401", "invalid thermal description",
         cause: "The balance has no heat path, or values of the thermal section contradict each other.",
         help: "Correct the section `thermal`.";
@@ -117,4 +123,8 @@ gearloss_document::codes! {
         cause: "At the rated speed, the inlet of a pump is in air or its pressure is too low, a relief valve never closes, a consumer has no flow, or a \
                 chamber floods.",
         help: "Change the pump, the pipe or the nozzle that the message names.";
+    UNUSUAL_HAND = "W0320", "unusual combination of hand and offset",
+        cause: "With this hand and offset of a hypoid pair the spiral angle of the pinion is smaller than that of the wheel, which is legal but rare: the \
+                pinion becomes smaller.",
+        help: "Check `hand` and the axes; if they are intended, no change is needed.";
 }

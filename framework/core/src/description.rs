@@ -3,6 +3,7 @@
 //! The registry adds the sections of mechanisms (`bearings`, `couplings`, `seals`, ... and those of other crates). All structs are
 //! read from the resolved document, in which every quantity is SI and every default is filled in.
 
+pub mod crossed;
 pub mod gears;
 pub mod housing;
 pub mod lubricant;
@@ -18,6 +19,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 pub use gearloss_document::Ordered;
+pub use crossed::{
+    BevelMeshEntry, CalculationPoint, CrossedHelicalMeshEntry, CutterEntry, CuttingMethod, DepthEntry, FlankAngles, SpiralAngleOf, WormMeshEntry,
+};
 pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
 pub use housing::{
     HeatInto, HousingEntry, InsideEntry, InsideSection, LevelOver, OilEntry, OutsideEntry, Running, RunningWord,
@@ -27,7 +31,7 @@ pub use lubricant::{Consistency, GreaseEntry, LubricantEntry};
 pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
 pub use oil_network::{HoleEntry, OilNetworkEntry, PocketEntry};
 pub use plausibility::PlausibilityEntry;
-pub use shafts::{LoadEntry, SectionEntry, ShaftEntry, Unsupported};
+pub use shafts::{AxisEntry, DirectedAxis, LoadEntry, SectionEntry, ShaftEntry, Unsupported};
 pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, TorqueShare};
 
 /// A gearbox.
@@ -60,9 +64,18 @@ pub struct GearboxEntry {
     /// Gears.
     #[serde(default)]
     pub gears: Ordered<GearEntry>,
-    /// Pairs of gears in mesh.
+    /// Pairs of cylindrical gears in mesh.
     #[serde(default)]
     pub meshes: Ordered<MeshEntry>,
+    /// Pairs of bevel or hypoid gears in mesh.
+    #[serde(default)]
+    pub bevel_meshes: Ordered<BevelMeshEntry>,
+    /// Worms with their wheels.
+    #[serde(default)]
+    pub worm_meshes: Ordered<WormMeshEntry>,
+    /// Pairs of cylindrical gears in mesh on axes that cross.
+    #[serde(default)]
+    pub crossed_helical_meshes: Ordered<CrossedHelicalMeshEntry>,
     /// Planetary sets: a carrier and the shafts that are planets on it.
     #[serde(default)]
     pub planetary_sets: Ordered<PlanetarySetEntry>,
@@ -130,6 +143,31 @@ impl GearboxEntry {
             .is_some_and(|(_, lubricant)| lubricant.grease.is_some())
     }
 
+    /// True if there is a mesh of gears with this path, such as `meshes.M1` or `worm_meshes.W`.
+    pub fn has_mesh(&self, path: &str) -> bool {
+        path.split_once('.').is_some_and(|(section, id)| match section {
+            "meshes" => self.meshes.get(id).is_some(),
+            "bevel_meshes" => self.bevel_meshes.get(id).is_some(),
+            "worm_meshes" => self.worm_meshes.get(id).is_some(),
+            "crossed_helical_meshes" => self.crossed_helical_meshes.get(id).is_some(),
+            _ => false,
+        })
+    }
+
+    /// Gears and lubricant of all meshes, by path.
+    pub fn all_meshes(&self) -> impl Iterator<Item = (String, &[String; 2], Option<&str>)> {
+        let of = |section: &str, id: &str| format!("{section}.{id}");
+        let meshes = self.meshes.iter();
+        let meshes = meshes.map(move |(id, m)| (of("meshes", id), &m.gears, m.lubricant.as_deref()));
+        let bevel = self.bevel_meshes.iter();
+        let bevel = bevel.map(move |(id, m)| (of("bevel_meshes", id), &m.gears, m.lubricant.as_deref()));
+        let worm = self.worm_meshes.iter();
+        let worm = worm.map(move |(id, m)| (of("worm_meshes", id), &m.gears, m.lubricant.as_deref()));
+        let crossed = self.crossed_helical_meshes.iter();
+        let crossed = crossed.map(move |(id, m)| (of("crossed_helical_meshes", id), &m.gears, m.lubricant.as_deref()));
+        meshes.chain(bevel).chain(worm).chain(crossed)
+    }
+
     /// Reads an entry of a section again, in which only numbers differ from before; the whole document for a section without entries.
     ///
     /// # Errors
@@ -140,6 +178,9 @@ impl GearboxEntry {
             "shafts" => entry_again(&mut self.shafts, section_value, id),
             "gears" => entry_again(&mut self.gears, section_value, id),
             "meshes" => entry_again(&mut self.meshes, section_value, id),
+            "bevel_meshes" => entry_again(&mut self.bevel_meshes, section_value, id),
+            "worm_meshes" => entry_again(&mut self.worm_meshes, section_value, id),
+            "crossed_helical_meshes" => entry_again(&mut self.crossed_helical_meshes, section_value, id),
             "planetary_sets" => entry_again(&mut self.planetary_sets, section_value, id),
             "lubricants" => entry_again(&mut self.lubricants, section_value, id),
             "housing" => {

@@ -21,20 +21,20 @@ pub use readings::{MemberTorques, Reading};
 use scratch::Models;
 pub use scratch::Scratch;
 pub(crate) use snapshot::{Asked, Snapshot};
-pub use solution::{PartLoss, PreloadAt, Solution};
+pub use solution::{PartLoss, PreloadAt, Solution, ToothForceAt};
 
 use crate::attach::{Oil, State};
 use crate::flow::{Balance, Drive, FlowState, Outcome, Start, Status, Tolerance};
 use crate::hydraulics::Inputs;
-use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad};
+use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad, ToothForces};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
 use crate::mechanism::Answers;
 use crate::mechanism::gear_drag::{GearDrag, GearDragAt};
-use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt};
+use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use crate::real::{Mask as _, Points, Real};
 use crate::sump::CAPTURE;
 use crate::thermal::Unbalanced;
-use crate::transmission::{Case, Component, Sharing, Transmission};
+use crate::transmission::{Case, Component, CrossedTeeth, MeshLaw, Sharing, Transmission};
 
 /// Whether torque downstream is reduced by upstream losses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -285,6 +285,9 @@ impl Transmission {
         s.ideal = power_flow == PowerFlow::Ideal;
         let (work, models) = (&mut s.work, &mut s.models);
         models.loaded.fill(0);
+        models.ideal = s.ideal;
+        models.friction.fill(R::ZERO);
+        models.found_friction.fill(0);
         models.round = 0;
         work.live = models.conditions.live;
         let losses = |flow: &mut FlowState<'_, R>| self.lose(case, flow, models, notes);
@@ -322,7 +325,7 @@ impl Transmission {
                         flow.moments[drag] = R::ZERO;
                         continue;
                     }
-                    self.load(case, component, flow.ports, m);
+                    self.load(case, component, (flow.ports, flow.drives), m);
                     m.conditions.live = *flow.live;
                     let (state, book) = m.conditions.open(notes);
                     let loss = loaded_loss(component, &state, &m.uneven_loads, &book, flow.live);
@@ -333,7 +336,7 @@ impl Transmission {
                 }
                 for &i in &flow.laws.meshes {
                     let mesh = &self.meshes[i];
-                    if mesh.model.off {
+                    if mesh.law.off() {
                         continue;
                     }
                     m.tangential[i] = m.forces[i];
@@ -364,32 +367,79 @@ impl Transmission {
 
     /// Loads of the supports of the group of a component, unless they are known for these torques.
     #[inline(always)]
-    fn load<R: Points>(&self, case: &Case, component: &Component, ports: &[R], m: &mut Models<R>) {
+    fn load<R: Answers>(&self, case: &Case, component: &Component, flow: (&[R], &[Drive]), m: &mut Models<R>) {
         if let Some(group) = component.group(&self.loads)
             && std::mem::replace(&mut m.loaded[group], m.round) != m.round
         {
-            self.load_group(case, group, ports, m);
+            self.load_group(case, group, flow, m);
         }
     }
 
-    /// Loads of the supports of a group.
+    /// Loads of the supports of a group, at the torques of ports and with the driving gears of meshes.
     #[inline(always)]
-    fn load_group<R: Points>(&self, case: &Case, group: usize, ports: &[R], m: &mut Models<R>) {
-        let c = &mut m.conditions;
+    fn load_group<R: Answers>(&self, case: &Case, group: usize, (ports, drives): (&[R], &[Drive]), m: &mut Models<R>) {
         let group = &self.loads.groups()[group];
+        if !m.friction.is_empty() {
+            self.find_friction(group, drives, m);
+        }
+        let c = &mut m.conditions;
+        let teeth = ToothForces {
+            tangential: &m.forces,
+            friction: &m.friction,
+        };
         self.loads
-            .evaluate(group, &m.forces, &c.speeds, &m.closings, &mut m.passed, &mut c.loads);
+            .evaluate(group, teeth, &c.speeds, &m.closings, &mut m.passed, &mut c.loads);
         self.correct_loads(case, group, ports, &mut c.loads);
         if self.uneven {
             for (which, loads) in m.uneven_loads.iter_mut().enumerate() {
                 for ((force, mean), mesh) in m.uneven_forces.iter_mut().zip(&m.forces).zip(&self.meshes) {
                     *force = *mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
                 }
+                let teeth = ToothForces {
+                    tangential: &m.uneven_forces,
+                    friction: &m.friction,
+                };
                 self.loads
-                    .evaluate(group, &m.uneven_forces, &c.speeds, &m.closings, &mut m.passed, loads);
+                    .evaluate(group, teeth, &c.speeds, &m.closings, &mut m.passed, loads);
                 self.correct_loads(case, group, ports, loads);
             }
         }
+    }
+
+    /// Friction forces of the meshes of a group at the present torques, unless they are known for these.
+    #[inline(never)]
+    fn find_friction<R: Answers>(&self, group: &Group, drives: &[Drive], m: &mut Models<R>) {
+        for &i in &group.meshes {
+            let mesh = &self.meshes[i];
+            let Some(teeth) = mesh.seat.crossed().filter(|_| !mesh.law.off() && !m.ideal) else {
+                continue;
+            };
+            if std::mem::replace(&mut m.found_friction[i], m.round) != m.round {
+                // The law is evaluated again with its part of the flow, with notes.
+                let mut live = m.conditions.live;
+                let (state, book) = m.conditions.open(false);
+                let answer = self.mesh(i, m.forces[i], drives[i], &state, &book, &mut live);
+                m.friction[i] = self.friction_of(i, teeth, m.forces[i], &answer, state.speeds);
+            }
+        }
+    }
+
+    /// Friction force of a mesh on axes that cross, which has its loss, with the sign of the speed of the first gear. \[N\]
+    #[inline(always)]
+    fn friction_of<R: Points>(
+        &self,
+        index: usize,
+        teeth: &CrossedTeeth,
+        force: R,
+        answer: &Result<Loss<R>, Undefined>,
+        speeds: &[R],
+    ) -> R {
+        let Ok(loss) = answer else { return R::ZERO };
+        let speed = self.mesh_speed(index, speeds);
+        let watts = loss.total_watts(speed) * self.meshes[index].loss_factor;
+        let [ahead, back] = teeth.flanks.map(|flank| R::constant(flank.sliding));
+        let sliding = speed * R::select(force.is_below(R::ZERO), back, ahead);
+        R::select(sliding.is_zero(), R::ZERO, watts / sliding)
     }
 
     /// Notes the static safety of bearings; on a planet that of the most loaded one.
@@ -419,6 +469,10 @@ impl Transmission {
     /// induce; with a preload, the closing of each bearing in um. Imported loads do not follow from it.
     fn note_pairs<R: Points>(&self, case: &Case, m: &mut Models<R>) {
         let c = &m.conditions;
+        let teeth = ToothForces {
+            tangential: &m.forces,
+            friction: &m.friction,
+        };
         let noted = self
             .pairs
             .iter()
@@ -430,12 +484,12 @@ impl Transmission {
             let reserves = if let Some(spring) = pair.spring {
                 let loads = self
                     .loads
-                    .pair_loads(support, &m.forces, &c.speeds, &m.closings, &mut m.passed);
+                    .pair_loads(support, teeth, &c.speeds, &m.closings, &mut m.passed);
                 loads.map(|loads| loads.reserve(spring))
             } else {
                 let closings = self
                     .loads
-                    .pair_closings(support, &m.forces, &c.speeds, &m.closings, &mut m.passed);
+                    .pair_closings(support, teeth, &c.speeds, &m.closings, &mut m.passed);
                 closings.map(|closings| closings.map(|own| own * 1e6))
             };
             let reserves = reserves.unwrap_or([R::ZERO; 2]);
@@ -458,12 +512,21 @@ impl Transmission {
             #[inline(always)]
             || {
                 self.forces(&s.work.multipliers, m);
-                for i in (0..self.meshes.len()).filter(|i| self.meshes[*i].model.off) {
+                for i in (0..self.meshes.len()).filter(|i| self.meshes[*i].law.off()) {
                     m.tangential[i] = m.forces[i];
+                }
+                for i in 0..m.friction.len() {
+                    // That of the losses of the flow.
+                    let mesh = &self.meshes[i];
+                    if let Some(teeth) = mesh.seat.crossed().filter(|_| !mesh.law.off() && !m.ideal) {
+                        let speeds = &m.conditions.speeds;
+                        m.friction[i] = self.friction_of(i, teeth, m.tangential[i], &m.mesh_losses[i], speeds);
+                        m.found_friction[i] = m.round;
+                    }
                 }
                 for group in 0..self.loads.groups().len() {
                     if m.loaded[group] == 0 {
-                        self.load_group(case, group, &s.work.ports, m);
+                        self.load_group(case, group, (&s.work.ports, &s.work.drives), m);
                     }
                 }
             },
@@ -543,10 +606,10 @@ impl Transmission {
         live: &mut R::Mask,
     ) -> Result<Loss<R>, Undefined> {
         let mesh = &self.meshes[index];
-        book.clear(mesh.model.notes);
+        book.clear(mesh.law.notes());
         match mesh.sharing {
             None => self.one_mesh(index, tangential, drives, state, book, live),
-            Some(sharing) => over_planets(sharing, book, mesh.model.notes, |which| {
+            Some(sharing) => over_planets(sharing, book, mesh.law.notes(), |which| {
                 let tangential = tangential * sharing.factors()[which];
                 self.one_mesh(index, tangential, drives, state, book, live)
             }),
@@ -565,15 +628,21 @@ impl Transmission {
         live: &mut R::Mask,
     ) -> Result<Loss<R>, Undefined> {
         state.count_call(*live);
-        let at = self.mesh_at(index, tangential, drives, state, book);
-        accepted(R::answer::<GearMesh>(&*self.meshes[index].model, &at), R::ZERO, live)
+        let answer = match &self.meshes[index].law {
+            MeshLaw::Cylindrical { part, model } => {
+                let at = self.mesh_at((index, part), tangential, drives, state, book);
+                R::answer::<GearMesh>(&**model, &at)
+            }
+            MeshLaw::Lossless => Ok(Loss::POWERS),
+        };
+        accepted(answer, R::ZERO, live)
     }
 
-    /// The context of a mesh model, one copy.
+    /// The context of the model of a mesh of cylindrical gears with this part, one copy.
     #[inline(always)]
     fn mesh_at<'a, R: Points>(
         &'a self,
-        index: usize,
+        (index, part): (usize, &'a MeshPart),
         tangential: R,
         drives: Drive,
         state: &State<'_, R>,
@@ -585,13 +654,13 @@ impl Transmission {
         let known = mesh.bodies.filter(|_| state.temperatures.len() > 1);
         let bodies = known.map(|nodes| nodes.map(|node| state.temperatures[node]));
         let flag = |holds: bool| R::constant(f64::from(u8::from(holds)));
-        let notes = book.notes(mesh.model.notes);
+        let notes = book.notes(mesh.law.notes());
         if mesh.greased {
             notes.branch("grease: the oil is its base oil");
         }
         GearMeshAt {
-            part: &mesh.part,
-            torque: (tangential * mesh.seat.pair.working_radius[0]).abs(),
+            part,
+            torque: (tangential * mesh.seat.radius()).abs(),
             speed: self.mesh_speed(index, state.speeds),
             first_drives: flag(drives != Drive::Second),
             temperature: oil.temperature,

@@ -1,7 +1,10 @@
 //! The transmission: immutable, validated, with indices instead of names, built models and precomputed values.
 
+mod axis;
 mod build;
 mod case;
+mod crossed;
+mod crossed_gearing;
 mod drag_models;
 mod drags;
 mod gearing;
@@ -25,7 +28,9 @@ mod torque_order;
 use std::sync::Arc;
 
 pub use crate::loads::Mounting;
+pub use axis::Axis;
 pub use case::Case;
+pub use crossed::{CrossedFlank, CrossedKind, CrossedTeeth, Wrench};
 pub(crate) use drags::DragSeat;
 pub use nodes::{AMBIENT, HeatPath};
 pub use oils::{AtRest, Oils, Surface};
@@ -99,8 +104,7 @@ pub struct Port {
 /// One mesh with its model.
 pub(crate) struct MeshModel {
     pub seat: MeshSeat,
-    pub part: Arc<MeshPart>,
-    pub model: Slot<GearMesh>,
+    pub law: MeshLaw,
     pub oil: u16,
     /// True if the teeth run in grease.
     pub greased: bool,
@@ -112,6 +116,43 @@ pub(crate) struct MeshModel {
     pub sharing: Option<Sharing>,
     /// Tangential force of one copy per multiplier of its row. \[1/m\]
     pub force_per_multiplier: f64,
+}
+
+/// The loss of a mesh, by the mechanism of its kind of teeth.
+pub(crate) enum MeshLaw {
+    /// Cylindrical gears.
+    Cylindrical {
+        part: Arc<MeshPart>,
+        model: Slot<GearMesh>,
+    },
+    /// No loss.
+    Lossless,
+}
+
+impl MeshLaw {
+    /// True if it need not be evaluated.
+    pub fn off(&self) -> bool {
+        match self {
+            Self::Cylindrical { model, .. } => model.off,
+            Self::Lossless => true,
+        }
+    }
+
+    /// Position of the notes of its model.
+    pub fn notes(&self) -> NoteBase {
+        match self {
+            Self::Cylindrical { model, .. } => model.notes,
+            Self::Lossless => NoteBase::default(),
+        }
+    }
+
+    /// The part of cylindrical gears.
+    pub fn cylindrical(&self) -> Option<&MeshPart> {
+        match self {
+            Self::Cylindrical { part, .. } => Some(part),
+            Self::Lossless => None,
+        }
+    }
 }
 
 /// One drag model with its indices.
@@ -292,9 +333,23 @@ impl Transmission {
     pub fn mesh_seats(&self) -> impl Iterator<Item = ([usize; 2], bool)> {
         self.meshes.iter().map(|m| (m.seat.gears, m.seat.carrier.is_some()))
     }
-    /// Path, geometry and roughness of every mesh.
-    pub fn meshes(&self) -> impl Iterator<Item = (&str, &MeshPart)> {
-        self.meshes.iter().map(|m| (m.seat.path.as_str(), m.part.as_ref()))
+    /// Paths of all meshes.
+    pub fn mesh_paths(&self) -> impl Iterator<Item = &str> {
+        self.meshes.iter().map(|m| m.seat.path.as_str())
+    }
+    /// Number, path, geometry and roughness of every mesh of cylindrical gears.
+    pub fn cylindrical_meshes(&self) -> impl Iterator<Item = (usize, &str, &MeshPart)> {
+        let meshes = self.meshes.iter().enumerate();
+        meshes.filter_map(|(i, m)| Some((i, m.seat.path.as_str(), m.law.cylindrical()?)))
+    }
+    /// True with meshes of gears on axes that cross.
+    pub(crate) fn has_crossed_meshes(&self) -> bool {
+        self.crossed_meshes().next().is_some()
+    }
+    /// Path and geometry of every mesh of gears on axes that cross.
+    pub fn crossed_meshes(&self) -> impl Iterator<Item = (&str, &CrossedTeeth)> {
+        let meshes = self.meshes.iter();
+        meshes.filter_map(|m| Some((m.seat.path.as_str(), m.seat.crossed()?.as_ref())))
     }
     /// Ids of both gears of a mesh by its path; `None` if there is no such mesh.
     pub fn gears_of_mesh(&self, path: &str) -> Vec<&str> {

@@ -529,7 +529,7 @@ fn profile_shifts_that_contradict_the_centre_distance_are_left_out() {
         ],
     );
     let (_, transmission) = gearbox(&imported.gearbox);
-    let (_, mesh) = transmission.meshes().next().unwrap();
+    let (.., mesh) = transmission.cylindrical_meshes().next().unwrap();
     assert!((mesh.pair.profile_shift[1] + 0.5).abs() < 1e-9);
 }
 

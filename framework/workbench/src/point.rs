@@ -160,7 +160,7 @@ fn component(chosen: &Chosen, part: &str) -> String {
         return part.to_owned();
     };
     let transmission = &chosen.transmission;
-    let mut meshes = transmission.meshes().map(|(path, _)| path);
+    let mut meshes = transmission.mesh_paths();
     let mesh = meshes.find(|path| transmission.gears_of_mesh(path).contains(&gear));
     mesh.map_or_else(|| part.to_owned(), ToString::to_string)
 }

@@ -15,18 +15,22 @@ pub struct GearEntry {
     /// Shaft, carrier or planet body that carries the gear.
     #[schemars(extend("x-refers-to" = "shafts"))]
     pub shaft: String,
-    /// Middle of the face width along the shaft. [mm]
+    /// Middle of the face width along the shaft. Gears on axes that cross have the position of their mean point, which follows; if it is
+    /// stated, it is compared. [mm]
     #[serde(default)]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub at: f64,
-    /// Number of teeth; also positive for ring gears. [-]
-    #[schemars(range(min = 5, max = 2000))]
+    /// Number of teeth, of a worm that of its threads; also positive for ring gears. Cylindrical and bevel gears have at least 5. [-]
+    #[schemars(range(min = 1, max = 2000))]
     pub z: u32,
     /// Face width. [mm]
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub facewidth: f64,
-    /// Hand of the helix; that of the mate follows. Not needed for spur gears.
+    /// Hand of the helix; that of the mate follows. Not needed for spur gears. Of a bevel gear: right if its teeth turn clockwise outwards,
+    /// seen from the apex.
     pub hand: Option<Hand>,
+    /// Side to which a bevel gear faces, that of its apex; default: `start`.
+    pub faces: Option<Faces>,
     /// External teeth, or a ring gear with internal teeth.
     #[serde(default)]
     pub kind: GearKind,
@@ -68,7 +72,7 @@ pub struct GearEntry {
     pub drag: Option<NamedSlots<GearDrag>>,
 }
 
-fn default_one() -> f64 {
+pub(super) fn default_one() -> f64 {
     1.0
 }
 
@@ -80,6 +84,17 @@ pub enum Hand {
     Right,
     /// Left-hand helix.
     Left,
+}
+
+/// Side of the apex of a bevel gear along its shaft.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Faces {
+    /// Towards smaller positions: the shaft runs from apex to base.
+    #[default]
+    Start,
+    /// Towards larger positions.
+    End,
 }
 
 /// External or internal teeth.
@@ -134,7 +149,7 @@ pub struct Surface {
     pub rq: Option<f64>,
 }
 
-/// Two gears in mesh.
+/// Two cylindrical gears in mesh, on parallel axes.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeshEntry {
     /// First and second gear. A ring gear is the second.

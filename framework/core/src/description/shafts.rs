@@ -6,9 +6,8 @@ use serde::{Deserialize, Serialize};
 /// A shaft, a carrier or a planet body.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct ShaftEntry {
-    /// Axis in the housing: y and z, z upwards. None for a planet body, whose axis moves with its carrier. [mm]
-    #[schemars(inner(range(min = -1e5, max = 1e5)))]
-    pub axis: Option<[f64; 2]>,
+    /// Axis in the housing. None for a planet body, whose axis moves with its carrier.
+    pub axis: Option<AxisEntry>,
     /// Mass including all that is fixed to the shaft; its weight loads the bearings. [kg]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e5))]
@@ -32,6 +31,27 @@ pub struct ShaftEntry {
     pub loads: Vec<LoadEntry>,
     /// `none` for a loaded shaft without bearings in this description: it has no bearing loads and no bearing losses.
     pub bearings: Option<Unsupported>,
+}
+
+/// The axis of a shaft.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum AxisEntry {
+    /// Along x, as most shafts: y and z, z upwards. [mm]
+    AlongX(#[schemars(inner(range(min = -1e5, max = 1e5)))] [f64; 2]),
+    /// In any direction.
+    Directed(DirectedAxis),
+}
+
+/// An axis in any direction; positions along the shaft count from `through`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DirectedAxis {
+    /// Point on the axis, x, y and z, at which positions along the shaft are zero. [mm]
+    #[schemars(inner(range(min = -1e5, max = 1e5)))]
+    pub through: [f64; 3],
+    /// Direction in which positions count and about which speeds are positive; of any length. [-]
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub direction: [f64; 3],
 }
 
 /// States that a shaft or an idler gear has no bearings in a description; otherwise a loaded one without bearings is an error.
@@ -66,11 +86,12 @@ pub struct LoadEntry {
     /// Position along the shaft. [mm]
     #[schemars(range(min = -1e5, max = 1e5))]
     pub at: f64,
-    /// Force: x along the shafts, y, z upwards. [N]
+    /// Force: x, y, z upwards; x is along the shafts unless their axes have a direction. [N]
     #[serde(default)]
     #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub force: [f64; 3],
-    /// Bending moment about y and about z. [Nm]
+    /// Bending moment about y and about z; of an axis with a direction about both directions across it, the second as far upwards as
+    /// possible. [Nm]
     #[serde(default)]
     #[schemars(inner(range(min = -1e9, max = 1e9)))]
     pub moment: [f64; 2],

@@ -52,7 +52,7 @@ pub struct TorqueShare {
     pub member: String,
     /// Meshes that share it.
     #[schemars(length(min = 2))]
-    #[schemars(extend("x-refers-to" = "meshes"))]
+    #[schemars(extend("x-refers-to" = ["meshes", "bevel_meshes", "worm_meshes", "crossed_helical_meshes"]))]
     pub meshes: Vec<String>,
     /// Shares, one for each mesh; their sum is one. [-]
     #[schemars(inner(range(min = 0.0, max = 1.0)), length(min = 2))]

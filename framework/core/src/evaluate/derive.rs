@@ -172,6 +172,7 @@ impl Transmission {
         s.models.conditions.trace = Some(Trace::default());
         self.settle_prescribed(case, &mut s, !0, Noting::Muted);
         let mut plain = BTreeSet::new();
+        s.models.ideal = point.flow == PowerFlow::Ideal;
         let (work, models) = (&mut s.work, &mut s.models);
         plain.extend(by_differences(&mut models.conditions.trace));
         let mut losses = |flow: &mut crate::flow::FlowState<'_, Dual>| {

@@ -17,7 +17,7 @@ use crate::mechanism::gear_mesh::GearMesh;
 use crate::rating::{Rated, RatingSlot};
 use crate::registry::{Build, BuiltRating, Files, Instance, RatingPlugin};
 use crate::resolve::{RATINGS, Resolved};
-use crate::transmission::{PartKind, Transmission};
+use crate::transmission::{MeshLaw, PartKind, Transmission};
 
 /// The ratings of all components of a transmission.
 pub struct Ratings {
@@ -78,9 +78,14 @@ impl Ratings {
                         .placed
                         .build_rating(&path, &plugin.entry, value, &mut build)
                         .map(|built| built.map(|built| Kind::Component(i, built))),
-                    PartKind::Mesh(i) if plugin.entry.mechanism == GearMesh::KEY => build
-                        .rating::<GearMesh>(&path, &transmission.meshes[i].part, &plugin.entry, value)
-                        .map(|built| Some(Kind::Mesh(i, built))),
+                    PartKind::Mesh(i) if plugin.entry.mechanism == GearMesh::KEY => {
+                        let MeshLaw::Cylindrical { part, .. } = &transmission.meshes[i].law else {
+                            continue;
+                        };
+                        build
+                            .rating::<GearMesh>(&path, part, &plugin.entry, value)
+                            .map(|built| Some(Kind::Mesh(i, built)))
+                    }
                     // Drags are rated with their gears.
                     PartKind::Mesh(_) | PartKind::Drag(_) => continue,
                 };
@@ -190,8 +195,11 @@ impl Solution<'_> {
             }
             Kind::Mesh(i, rating) => {
                 let most = t.meshes[*i].sharing.map_or(1.0, |sharing| sharing.factors()[0]);
+                let MeshLaw::Cylindrical { part, .. } = &t.meshes[*i].law else {
+                    return Ok(Rated::default());
+                };
                 let muted = t.mesh_at(
-                    *i,
+                    (*i, part),
                     s.models.tangential[*i] * most,
                     s.work.drives[*i],
                     &state,

@@ -61,7 +61,7 @@ impl Solution<'_> {
         let state = self.state();
         match t.parts[part].kind {
             PartKind::Component(i) => t.components[i].placed.readings(&state),
-            PartKind::Mesh(i) => readings::<GearMesh>(&self.mesh_at(i)),
+            PartKind::Mesh(i) => self.mesh_at(i).map_or_else(Vec::new, |at| readings::<GearMesh>(&at)),
             PartKind::Drag(i) => readings::<GearDrag>(&t.drag_at(i, &state, &Notebook::CLOSED)),
         }
     }

@@ -107,6 +107,12 @@ pub(super) struct Models<R: Points> {
     /// Tangential force of each mesh as its law was evaluated, and at the present torques. \[N\]
     pub tangential: Vec<R>,
     pub forces: Vec<R>,
+    /// Friction force of each mesh at the present torques, with the sign of the speed of the first gear, and the round in which it was found;
+    /// empty without meshes on axes that cross. \[N\]
+    pub friction: Vec<R>,
+    pub found_friction: Vec<usize>,
+    /// True if the power flow is ideal: losses change no torque.
+    pub ideal: bool,
     pub component_losses: Vec<Result<Loss<R>, Undefined>>,
     pub mesh_losses: Vec<Result<Loss<R>, Undefined>>,
     pub drag_losses: Vec<Result<Loss<R>, Undefined>>,
@@ -192,6 +198,7 @@ impl<R: Points> Scratch<R> {
         let zeros = |count: usize| vec![R::ZERO; count];
         // Not evaluated yet.
         let losses = |count: usize| vec![Ok(Loss::POWERS); count];
+        let with_friction = if transmission.has_crossed_meshes() { meshes } else { 0 };
         let uneven = |count: usize| if transmission.uneven { count } else { 0 };
         Self {
             models: Models {
@@ -221,6 +228,9 @@ impl<R: Points> Scratch<R> {
                 }),
                 tangential: zeros(meshes),
                 forces: zeros(meshes),
+                friction: zeros(with_friction),
+                found_friction: vec![0; with_friction],
+                ideal: false,
                 component_losses: losses(transmission.components.len()),
                 mesh_losses: losses(meshes),
                 drag_losses: losses(transmission.drags.len()),

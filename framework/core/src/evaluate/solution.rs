@@ -2,7 +2,8 @@
 
 use super::Scratch;
 use crate::flow::Status;
-use crate::loads::{PairLoads, SupportLoad};
+use crate::geometry::crossed::Flank;
+use crate::loads::{PairLoads, SupportLoad, ToothForces};
 use crate::loss::{Extent, Loss, Notebook, Trace, Undefined};
 use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::real::{Points, Real};
@@ -118,6 +119,19 @@ impl Transmission {
             }
         }
     }
+}
+
+/// Force of teeth on axes that cross, x, y, z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToothForceAt {
+    /// Mean point. \[m\]
+    pub place: [f64; 3],
+    /// Force at the mean point. \[N\]
+    pub force: [f64; 3],
+    /// Moment about the mean point in addition, by friction along the path of contact. \[Nm\]
+    pub moment: [f64; 3],
+    /// Which flanks touch.
+    pub flank: Flank,
 }
 
 /// A solved point.
@@ -271,7 +285,10 @@ impl Solution<'_> {
         let mut passed = vec![0.0; t.loads.scratch_len()];
         t.loads.pair_loads(
             support,
-            &forces,
+            ToothForces {
+                tangential: &forces,
+                friction: &models.friction,
+            },
             &models.conditions.speeds,
             &models.closings,
             &mut passed,
@@ -291,7 +308,7 @@ impl Solution<'_> {
         let support = own.supports().next()?;
         let closings = t
             .loads
-            .pair_closings(support, &models.forces, &c.speeds, &models.closings, &mut passed)?;
+            .pair_closings(support, self.teeth(), &c.speeds, &models.closings, &mut passed)?;
         Some(PreloadAt {
             temperatures,
             closing,
@@ -336,7 +353,11 @@ impl Solution<'_> {
     pub fn radial_forces(&self) -> Vec<Option<[f64; 2]>> {
         let t = self.transmission;
         let models = &self.scratch.models;
-        let forces = t.loads.on_inner(&models.tangential, &models.conditions.speeds);
+        let teeth = ToothForces {
+            tangential: &models.tangential,
+            friction: &models.friction,
+        };
+        let forces = t.loads.on_inner(teeth, &models.conditions.speeds);
         let of_support = |(support, force): (usize, [f64; 2])| {
             let imported = t.imported.as_ref();
             if imported.is_some_and(|own| own.tables[self.case.state][support].is_some()) {
@@ -355,20 +376,47 @@ impl Solution<'_> {
 
     /// Torque of one copy of a mesh on its first gear, signed. \[Nm\]
     pub fn mesh_torque(&self, mesh: usize) -> f64 {
-        self.scratch.models.tangential[mesh] * self.transmission.meshes[mesh].seat.pair.working_radius[0]
+        self.scratch.models.tangential[mesh] * self.transmission.meshes[mesh].seat.radius()
     }
 
-    /// The context of the model of a mesh, one copy, with muted notes.
-    pub fn mesh_at(&self, mesh: usize) -> GearMeshAt<'_> {
+    /// The context of the model of a mesh of cylindrical gears, one copy, with muted notes; `None` of other gears.
+    pub fn mesh_at(&self, mesh: usize) -> Option<GearMeshAt<'_>> {
         let s = self.scratch;
         let state = self.state();
-        self.transmission.mesh_at(
-            mesh,
+        let part = self.transmission.meshes[mesh].law.cylindrical()?;
+        Some(self.transmission.mesh_at(
+            (mesh, part),
             s.models.tangential[mesh],
             s.work.drives[mesh],
             &state,
             &Notebook::CLOSED,
-        )
+        ))
+    }
+
+    /// Force of the teeth of a mesh on axes that cross on the first gear, with friction; that on the second gear is opposite. `None` of
+    /// cylindrical gears.
+    pub fn tooth_force(&self, mesh: usize) -> Option<ToothForceAt> {
+        let teeth = self.transmission.meshes.get(mesh)?.seat.crossed()?;
+        let models = &self.scratch.models;
+        let (force, friction) = (models.tangential[mesh], models.friction[mesh]);
+        let flank = teeth.flanks[usize::from(force < 0.0)];
+        // The teeth act against the motion of the first gear if it drives.
+        let driving = usize::from((force < 0.0) == (friction < 0.0));
+        let of_friction = flank.friction[driving];
+        Some(ToothForceAt {
+            place: teeth.mean_point.into(),
+            force: (flank.normal * force.abs() + of_friction.force * friction).into(),
+            moment: (of_friction.moment * friction).into(),
+            flank: flank.flank,
+        })
+    }
+
+    /// Forces of all teeth.
+    fn teeth(&self) -> ToothForces<'_, f64> {
+        ToothForces {
+            tangential: &self.scratch.models.forces,
+            friction: &self.scratch.models.friction,
+        }
     }
 
     /// Loss of each part, in the order of the parts.

@@ -2,40 +2,45 @@
 
 use crate::document::{Content, Diagnostic, Node, codes};
 
-/// Words for stages that are no pairs of spur or helical gears.
-const STAGES: [(&[&str], &str); 7] = [
-    (&["worm", "worms"], "worm stages"),
-    (&["hypoid"], "hypoid stages"),
-    (&["bevel", "spiral"], "bevel stages"),
-    (&["crossed"], "crossed helical gears"),
+/// Words for stages with a section of their own, and that section.
+const SECTIONS: [(&[&str], &str, &str); 4] = [
+    (&["worm", "worms"], "worm stages", "worm_meshes"),
+    (&["hypoid"], "hypoid stages", "bevel_meshes"),
+    (&["bevel", "spiral"], "bevel stages", "bevel_meshes"),
+    (&["crossed"], "crossed helical gears", "crossed_helical_meshes"),
+];
+
+/// Words for stages that cannot be described.
+const STAGES: [(&[&str], &str); 3] = [
     (&["chain", "chains"], "chain drives"),
     (&["belt", "belts"], "belt drives"),
     (&["harmonic", "strain", "cycloidal"], "strain wave and cycloidal gears"),
 ];
 
 /// Keys of axes that are not parallel.
-const AXES: [&str; 6] = [
-    "direction",
-    "shaft_angle",
-    "cone_angle",
-    "lead_angle",
-    "tilt",
-    "axis_angle",
-];
+const AXES: [&str; 4] = ["direction", "tilt", "axis_angle", "inclination"];
 
 /// The stage that a word of a description means, such as `worm` or `worm_gear`.
 pub fn undescribed_stage(word: &str) -> Option<&'static str> {
-    let word = word.to_lowercase();
-    let parts: Vec<&str> = word.split(|c: char| !c.is_alphanumeric()).collect();
-    let meant = STAGES
-        .iter()
-        .find(|(words, _)| words.iter().any(|word| parts.contains(word)));
+    let meant = STAGES.iter().find(|(words, _)| means(word, words));
     meant.map(|(_, name)| *name)
 }
 
+/// The stage with a section of its own that a word of a description means, and that section.
+fn stage_with_section(word: &str) -> Option<(&'static str, &'static str)> {
+    let meant = SECTIONS.iter().find(|(words, ..)| means(word, words));
+    meant.map(|(_, name, section)| (*name, *section))
+}
+
+/// True if one of some words is a part of a word of a description.
+fn means(word: &str, words: &[&str]) -> bool {
+    let word = word.to_lowercase();
+    let parts: Vec<&str> = word.split(|c: char| !c.is_alphanumeric()).collect();
+    words.iter().any(|word| parts.contains(word))
+}
+
 /// What to do instead.
-pub const DESCRIBE_THE_REST: &str = "gearbox files have parallel shafts with spur and helical gears, also planetary ones: describe that part of the transmission, with a \
-     port where the other stage is, and take the loss of the other stage from elsewhere";
+pub const DESCRIBE_THE_REST: &str = "describe the rest of the transmission, with a port where that stage is, and take the loss of that stage from elsewhere";
 
 /// Findings about such stages, in their words.
 pub(super) fn explained(findings: Vec<Diagnostic>, document: &Node) -> Vec<Diagnostic> {
@@ -61,12 +66,16 @@ fn explained_one(finding: Diagnostic, document: &Node) -> Diagnostic {
     if code == codes::WRONG_TYPE {
         return finding;
     }
+    if let Some((stage, section)) = stage_with_section(key).or_else(|| text.and_then(stage_with_section)) {
+        return finding_without_notes(finding, &format!("{stage} are described in a section of their own"))
+            .help(format!("describe the pair in `{section}`, and its shafts with `axis: {{ through: [x, y, z], direction: [x, y, z] }}`"));
+    }
     if let Some(stage) = undescribed_stage(key).or_else(|| text.and_then(undescribed_stage)) {
         return finding_without_notes(finding, &format!("{stage} cannot be described yet")).help(DESCRIBE_THE_REST);
     }
     if code == codes::UNKNOWN_KEY && AXES.contains(&key) {
-        let message = "all shafts are parallel to x: other directions, and so bevel, hypoid and worm stages, cannot be described yet";
-        return finding_without_notes(finding, message).help(DESCRIBE_THE_REST);
+        return finding_without_notes(finding, "the direction of a shaft is a part of its axis")
+            .help("write `axis: { through: [x, y, z], direction: [x, y, z] }` at the shaft");
     }
     finding
 }

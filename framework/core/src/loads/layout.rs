@@ -30,6 +30,8 @@ pub struct PlanetBody {
 /// A member for statics.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MemberLayout {
+    /// Where positions along the shaft count from, along its direction, so that those of parallel shafts are comparable. \[m\]
+    pub start: f64,
     /// Permanent forces: position along the shaft, force in x, y, z. \[m, N\]
     pub forces: Vec<(f64, [f64; 3])>,
     /// Permanent moments about y and z, with their position. \[m, Nm\]
@@ -76,11 +78,20 @@ pub struct SupportLayout {
 }
 
 /// A mesh for statics.
+#[derive(Debug, Clone, PartialEq)]
+pub enum MeshLayout {
+    /// Cylindrical gears on parallel axes.
+    Cylindrical(CylindricalMesh),
+    /// Gears on axes that cross.
+    Crossed(Box<CrossedMesh>),
+}
+
+/// Cylindrical gears on parallel axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeshLayout {
+pub struct CylindricalMesh {
     /// Members of both gears.
     pub members: [usize; 2],
-    /// Middle of the face along the shafts. \[m\]
+    /// Middle of the face along the shafts, counted from where [`MemberLayout::start`] counts. \[m\]
     pub at: f64,
     /// Working pitch radii. \[m\]
     pub radius: [f64; 2],
@@ -98,7 +109,27 @@ pub struct MeshLayout {
     pub central: [bool; 2],
 }
 
-impl MeshLayout {
+/// Gears on axes that cross; vectors in the frame of the member of each gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrossedMesh {
+    /// Members of both gears.
+    pub members: [usize; 2],
+    /// Position of the mean point along each shaft. \[m\]
+    pub at: [f64; 2],
+    /// Vector from each axis to the mean point, y and z. \[m\]
+    pub arm: [[f64; 2]; 2],
+    /// Force on each gear per newton of the magnitude of the tangential force, without friction: for a positive and for a negative one.
+    pub normal: [[[f64; 3]; 2]; 2],
+    /// Force and moment about y and z on each gear per newton of friction while the first gear turns forwards: for a positive and for a
+    /// negative tangential force, and for each of them if the first and if the second gear drives. \[-, m\]
+    pub friction: [[[([f64; 3], [f64; 2]); 2]; 2]; 2],
+}
+
+/// Load cases of friction: for a positive and for a negative tangential force, and for each of them for a positive and for a negative speed
+/// of the first gear.
+pub(super) type Senses<T> = [[T; 2]; 2];
+
+impl CylindricalMesh {
     /// Forces on the first and on the second gear, per newton of tangential force and of its magnitude; x, y, z.
     pub(super) fn forces(&self, gear: usize) -> [[f64; 3]; 2] {
         let [ey, ez] = self.direction;
@@ -118,6 +149,81 @@ impl MeshLayout {
             -self.sign * self.radius[1]
         };
         [r * self.direction[0], r * self.direction[1]]
+    }
+}
+
+impl MeshLayout {
+    /// Members of both gears.
+    pub fn members(&self) -> [usize; 2] {
+        match self {
+            Self::Cylindrical(mesh) => mesh.members,
+            Self::Crossed(mesh) => mesh.members,
+        }
+    }
+
+    /// Number of equal copies.
+    pub(super) fn count(&self) -> f64 {
+        match self {
+            Self::Cylindrical(mesh) => mesh.count,
+            Self::Crossed(_) => 1.0,
+        }
+    }
+
+    /// True for a gear on the central axis of a set with several planets.
+    pub fn is_central(&self, gear: usize) -> bool {
+        match self {
+            Self::Cylindrical(mesh) => mesh.central[gear],
+            Self::Crossed(_) => false,
+        }
+    }
+
+    /// Position along the shaft of a gear, which starts at `start`. \[m\]
+    pub(super) fn at(&self, gear: usize, start: f64) -> f64 {
+        match self {
+            Self::Cylindrical(mesh) => mesh.at - start,
+            Self::Crossed(mesh) => mesh.at[gear],
+        }
+    }
+
+    /// Vector from a gear's axis to the contact, y and z. \[m\]
+    pub(super) fn arm(&self, gear: usize) -> [f64; 2] {
+        match self {
+            Self::Cylindrical(mesh) => mesh.arm(gear),
+            Self::Crossed(mesh) => mesh.arm[gear],
+        }
+    }
+
+    /// Forces on a gear per newton of tangential force and of its magnitude; x, y, z.
+    pub(super) fn forces(&self, gear: usize) -> [[f64; 3]; 2] {
+        match self {
+            Self::Cylindrical(mesh) => mesh.forces(gear),
+            Self::Crossed(mesh) => {
+                let [positive, negative] = mesh.normal[gear];
+                let half = |sign: f64| std::array::from_fn(|i| 0.5 * (positive[i] + sign * negative[i]));
+                [half(-1.0), half(1.0)]
+            }
+        }
+    }
+
+    /// Force and moment on a gear per newton of friction, which has the sign of the speed of the first gear; `None` where friction is not in
+    /// the forces.
+    pub(super) fn friction(&self, gear: usize) -> Option<Senses<([f64; 3], [f64; 2])>> {
+        match self {
+            Self::Cylindrical(_) => None,
+            // The teeth act against the motion of the first gear if it drives.
+            Self::Crossed(mesh) => Some(std::array::from_fn(|sense| {
+                let [first, second] = mesh.friction[gear][sense];
+                if sense == 0 { [second, first] } else { [first, second] }
+            })),
+        }
+    }
+
+    /// True if the teeth push the shafts along their axes.
+    pub fn has_thrust(&self) -> bool {
+        match self {
+            Self::Cylindrical(mesh) => mesh.hand_tan_beta != 0.0,
+            Self::Crossed(_) => true,
+        }
     }
 }
 
@@ -147,7 +253,7 @@ impl Layout {
     pub(crate) fn meshes_by_member(&self) -> Vec<Vec<usize>> {
         let mut lists = vec![Vec::new(); self.members.len()];
         for (i, mesh) in self.meshes.iter().enumerate() {
-            let [first, second] = mesh.members;
+            let [first, second] = mesh.members();
             lists[first].push(i);
             if second != first {
                 lists[second].push(i);

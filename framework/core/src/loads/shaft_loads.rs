@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::SupportLoad;
-use super::layout::{Layout, LoadFault, MemberLayout, SupportLayout};
+use super::layout::{Layout, Senses, LoadFault, MemberLayout, SupportLayout};
 use super::pair::{Pair, PairLoads};
 use super::statics::{Action, Reaction, Statics};
 use super::thrust::Taking;
@@ -21,6 +21,31 @@ pub struct ShaftLoads {
     /// Supports whose loads are found together, and the group of each support.
     groups: Vec<Group>,
     group_of: Vec<usize>,
+}
+
+/// Forces of the teeth of all meshes.
+#[derive(Debug, Clone, Copy)]
+pub struct ToothForces<'a, R> {
+    /// Tangential force of the first gear of one copy of each mesh, signed. \[N\]
+    pub tangential: &'a [R],
+    /// Friction force of each mesh, with the sign of the speed of the first gear; may be shorter, without those that no case needs. \[N\]
+    pub friction: &'a [R],
+}
+
+/// The value of a pair of cases for the sign of a force.
+#[inline(always)]
+fn by_sense<R: Real>(backwards: R::Mask, [ahead, back]: [f64; 2]) -> R {
+    R::select(backwards, R::constant(back), R::constant(ahead))
+}
+
+impl<R: Real> ToothForces<'_, R> {
+    /// Friction of a mesh with the cases that hold for its sense and that of the speed.
+    #[inline(always)]
+    fn friction(&self, mesh: usize, cases: Senses<f64>) -> R {
+        let friction = self.friction.get(mesh).copied().unwrap_or(R::ZERO);
+        let (backwards, reverse) = (self.tangential[mesh].is_below(R::ZERO), friction.is_below(R::ZERO));
+        friction * R::select(backwards, by_sense(reverse, cases[1]), by_sense(reverse, cases[0]))
+    }
 }
 
 /// The supports of a member, or one through which thrust passes, and what their loads depend on.
@@ -41,6 +66,8 @@ pub(super) struct Cases {
     always: Reaction,
     /// To one newton of the tangential force of a mesh: of a positive one, and of a negative one.
     meshes: Vec<(usize, [Reaction; 2])>,
+    /// To one newton of friction of a mesh.
+    friction: Vec<(usize, Senses<Reaction>)>,
     /// To the centrifugal force of a planet body per squared speed of its carrier.
     planets: Vec<(usize, Reaction)>,
     /// True if there can be a couple.
@@ -52,7 +79,12 @@ pub(super) struct Cases {
 impl Cases {
     /// From the reactions to permanent loads, to the units of each mesh that loads the support, and to the centrifugal force of each
     /// planet body that does.
-    fn new(always: Reaction, units: &BTreeMap<usize, [Reaction; 2]>, planets: Vec<(usize, Reaction)>) -> Self {
+    fn new(
+        always: Reaction,
+        units: &BTreeMap<usize, [Reaction; 2]>,
+        friction: Vec<(usize, Senses<Reaction>)>,
+        planets: Vec<(usize, Reaction)>,
+    ) -> Self {
         let nothing = Reaction::default();
         // The part that depends on the magnitude of a force is added to or subtracted from the linear part.
         let of_senses = |pair: &[Reaction; 2]| {
@@ -69,15 +101,19 @@ impl Cases {
             .collect();
         let torqueless = always.force != [0.0; 2] || planets.iter().any(|(_, planet)| planet.force != [0.0; 2]);
         let only = match &meshes[..] {
-            [(mesh, senses)] if !torqueless => Some((*mesh, senses.map(|reaction| length(reaction.force)))),
+            [(mesh, senses)] if !torqueless && friction.is_empty() => Some((*mesh, senses.map(|reaction| length(reaction.force)))),
             _ => None,
         };
-        let mut reactions = units.values().flatten().chain(planets.iter().map(|(_, planet)| planet));
+        let of_friction = friction.iter().flat_map(|(_, senses)| senses.as_flattened());
+        let mut reactions = (units.values().flatten())
+            .chain(planets.iter().map(|(_, planet)| planet))
+            .chain(of_friction);
         Self {
             only,
             couples: always.couple != [0.0; 2] || reactions.any(|reaction| reaction.couple != [0.0; 2]),
             always,
             meshes,
+            friction,
             planets: planets
                 .into_iter()
                 .filter(|(_, reaction)| *reaction != nothing)
@@ -87,17 +123,17 @@ impl Cases {
 
     /// The radial load of the support.
     #[inline(always)]
-    fn radial<R: Real>(&self, tangential: &[R], speeds: &[R]) -> R {
+    fn radial<R: Real>(&self, teeth: &ToothForces<'_, R>, speeds: &[R]) -> R {
         match &self.only {
-            Some((mesh, lengths)) => under(lengths, tangential[*mesh]),
-            None => length(self.sum(|reaction| reaction.force, tangential, speeds)),
+            Some((mesh, lengths)) => under(lengths, teeth.tangential[*mesh]),
+            None => length(self.sum(|reaction| reaction.force, teeth, speeds)),
         }
     }
 
     /// The force, or the couple, on the support; `part` chooses it. The part that is independent of torque depends on the squared
     /// speed of carriers.
     #[inline(always)]
-    fn sum<R: Real>(&self, part: impl Fn(&Reaction) -> [f64; 2], tangential: &[R], speeds: &[R]) -> [R; 2] {
+    fn sum<R: Real>(&self, part: impl Fn(&Reaction) -> [f64; 2], teeth: &ToothForces<'_, R>, speeds: &[R]) -> [R; 2] {
         let [y, z] = part(&self.always);
         let (mut y, mut z) = (R::constant(y), R::constant(z));
         for (carrier, reaction) in &self.planets {
@@ -106,11 +142,16 @@ impl Cases {
             z += factor * case[1];
         }
         for (mesh, [ahead, back]) in &self.meshes {
-            let force = tangential[*mesh];
+            let force = teeth.tangential[*mesh];
             let backwards = force.is_below(R::ZERO);
             let (ahead, back) = (part(ahead), part(back));
             y += force * R::select(backwards, R::constant(back[0]), R::constant(ahead[0]));
             z += force * R::select(backwards, R::constant(back[1]), R::constant(ahead[1]));
+        }
+        for (mesh, senses) in &self.friction {
+            let along = |axis: usize| senses.map(|turns| turns.map(|reaction| part(&reaction)[axis]));
+            y += teeth.friction(*mesh, along(0));
+            z += teeth.friction(*mesh, along(1));
         }
         [y, z]
     }
@@ -124,20 +165,50 @@ pub(super) struct Axially {
     pub size: f64,
     /// Mesh and thrust per newton of its tangential force.
     pub meshes: Vec<(usize, f64)>,
+    /// Meshes whose thrust depends on the sense of the force and on friction.
+    pub crossed: Vec<CrossedThrust>,
     pub taking: Taking,
     /// Index in the order of the member that takes the thrust of the supports, with the number of copies.
     pub carrier: Option<(usize, f64)>,
 }
 
+/// Thrust of a mesh of gears on axes that cross.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CrossedThrust {
+    mesh: usize,
+    /// Per newton of a positive and of a negative tangential force.
+    normal: [f64; 2],
+    /// Per newton of friction.
+    friction: Senses<f64>,
+}
+
+impl CrossedThrust {
+    /// That of several copies.
+    fn times(self, copies: f64) -> Self {
+        Self {
+            mesh: self.mesh,
+            normal: self.normal.map(|thrust| thrust * copies),
+            friction: self.friction.map(|turns| turns.map(|thrust| thrust * copies)),
+        }
+    }
+}
+
 impl Axially {
     /// The thrust with that which other members pass on, and the magnitude of the forces in its sum.
     #[inline(always)]
-    fn thrust<R: Real>(&self, tangential: &[R], passed: R, size: R) -> (R, R) {
+    fn thrust<R: Real>(&self, teeth: &ToothForces<'_, R>, passed: R, size: R) -> (R, R) {
         let (mut thrust, mut scale) = (R::constant(self.always), R::constant(self.size));
         for (mesh, factor) in &self.meshes {
-            let force = tangential[*mesh] * *factor;
+            let force = teeth.tangential[*mesh] * *factor;
             thrust += force;
             scale += force.abs();
+        }
+        for own in &self.crossed {
+            let tangential: R = teeth.tangential[own.mesh];
+            let normal: R = tangential * by_sense::<R>(tangential.is_below(R::ZERO), own.normal);
+            let friction = teeth.friction(own.mesh, own.friction);
+            thrust += normal + friction;
+            scale += normal.abs() + friction.abs();
         }
         (thrust + passed, scale + size)
     }
@@ -185,6 +256,13 @@ impl Group {
             for (mesh, factor) in group.members.iter().flat_map(|place| &order[*place].meshes) {
                 *forces.entry(*mesh).or_default() += factor.abs();
             }
+            for own in group.members.iter().flat_map(|place| &order[*place].crossed) {
+                *forces.entry(own.mesh).or_default() += own.normal.iter().map(|thrust| thrust.abs()).sum::<f64>();
+            }
+            for (mesh, senses) in group.supports.iter().flat_map(|support| &cases[*support].friction) {
+                let sizes = senses.as_flattened().iter().map(|reaction| length(reaction.force));
+                *forces.entry(*mesh).or_default() += sizes.sum::<f64>();
+            }
             let mut forces: Vec<(usize, f64)> = forces.into_iter().collect();
             forces.sort_by(|a, b| b.1.total_cmp(&a.1));
             group.meshes = forces.into_iter().map(|(mesh, _)| mesh).collect();
@@ -201,9 +279,10 @@ impl ShaftLoads {
     pub fn new(layout: &Layout) -> Result<Self, Vec<LoadFault>> {
         let system = System::new(layout)?;
         let units = system.units();
-        let cases = system.permanent().into_iter().zip(&units).zip(system.planets());
+        let cases = system.permanent().into_iter().zip(&units);
+        let cases = cases.zip(system.friction()).zip(system.planets());
         let cases: Vec<Cases> = cases
-            .map(|((always, units), planets)| Cases::new(always, units, planets))
+            .map(|(((always, units), friction), planets)| Cases::new(always, units, friction, planets))
             .collect();
         let turned = layout.supports.iter();
         let turned = turned
@@ -241,14 +320,14 @@ impl ShaftLoads {
         self.group_of[support]
     }
 
-    /// Writes the loads of the supports of a group. `tangential` is the signed tangential force of one copy of each mesh (N), `speeds`
+    /// Writes the loads of the supports of a group. `teeth` are the forces of the meshes, `speeds`
     /// are those of all members (rad/s), `closings` those of pairs with a stated preload by member (m), the length of `passed` is
     /// [`ShaftLoads::scratch_len`].
     #[inline(always)]
     pub fn evaluate<R: Points>(
         &self,
         group: &Group,
-        tangential: &[R],
+        teeth: ToothForces<'_, R>,
         speeds: &[R],
         closings: &[R],
         passed: &mut [R],
@@ -257,11 +336,11 @@ impl ShaftLoads {
         for &support in &group.supports {
             let cases = &self.cases[support];
             loads[support] = SupportLoad {
-                radial: cases.radial(tangential, speeds),
+                radial: cases.radial(&teeth, speeds),
                 axial: R::ZERO,
                 // Few supports take a couple, and a square root is expensive.
                 tilting: if cases.couples {
-                    length(cases.sum(|reaction| reaction.couple, tangential, speeds))
+                    length(cases.sum(|reaction| reaction.couple, &teeth, speeds))
                 } else {
                     R::ZERO
                 },
@@ -269,7 +348,7 @@ impl ShaftLoads {
             };
         }
         if let Some(own) = group.members.last() {
-            let (thrust, scale) = self.thrust(group, *own, tangential, passed);
+            let (thrust, scale) = self.thrust(group, *own, &teeth, passed);
             self.order[*own].taking.share(thrust, scale, closings, loads);
         }
     }
@@ -277,7 +356,7 @@ impl ShaftLoads {
     /// The thrust towards +x of the last member of a group, with that which others pass on to it, and the magnitude of the forces in its
     /// sum.
     #[inline(always)]
-    fn thrust<R: Real>(&self, group: &Group, own: usize, tangential: &[R], passed: &mut [R]) -> (R, R) {
+    fn thrust<R: Real>(&self, group: &Group, own: usize, teeth: &ToothForces<'_, R>, passed: &mut [R]) -> (R, R) {
         // Thrust that members pass on, and the magnitude of the forces in its sum.
         let (passed, sizes) = passed.split_at_mut(self.order.len());
         for &place in &group.members {
@@ -285,14 +364,14 @@ impl ShaftLoads {
         }
         for &place in group.members.iter().filter(|place| **place != own) {
             let member = &self.order[place];
-            let (thrust, scale) = member.thrust(tangential, passed[place], sizes[place]);
+            let (thrust, scale) = member.thrust(teeth, passed[place], sizes[place]);
             // However the supports share it, the net thrust goes to the supporting member.
             if let Some((carrier, copies)) = member.carrier {
                 passed[carrier] += (thrust - member.taking.untaken(thrust, scale)) * copies;
                 sizes[carrier] += scale * copies;
             }
         }
-        self.order[own].thrust(tangential, passed[own], sizes[own])
+        self.order[own].thrust(teeth, passed[own], sizes[own])
     }
 
     /// Pairs of opposed bearings, each of one member.
@@ -306,7 +385,7 @@ impl ShaftLoads {
     pub fn pair_loads<R: Points>(
         &self,
         support: usize,
-        tangential: &[R],
+        teeth: ToothForces<'_, R>,
         speeds: &[R],
         closings: &[R],
         passed: &mut [R],
@@ -315,10 +394,10 @@ impl ShaftLoads {
         let own = *group.members.last()?;
         let taking = &self.order[own].taking;
         let pair = taking.pair()?;
-        let (thrust, _) = self.thrust(group, own, tangential, passed);
+        let (thrust, _) = self.thrust(group, own, &teeth, passed);
         let closing = closings.get(pair.member).copied().unwrap_or(R::ZERO);
         Some(pair.loads(taking.with_springs(thrust), closing, |support| {
-            self.cases[support].radial(tangential, speeds)
+            self.cases[support].radial(&teeth, speeds)
         }))
     }
 
@@ -327,35 +406,35 @@ impl ShaftLoads {
     pub fn pair_closings<R: Points>(
         &self,
         support: usize,
-        tangential: &[R],
+        teeth: ToothForces<'_, R>,
         speeds: &[R],
         closings: &[R],
         passed: &mut [R],
     ) -> Option<[R; 2]> {
-        let loads = self.pair_loads(support, tangential, speeds, closings, passed)?;
+        let loads = self.pair_loads(support, teeth, speeds, closings, passed)?;
         let own = *self.groups[self.group_of[support]].members.last()?;
         let pair = self.order[own].taking.pair()?;
-        let radial = [0, 1].map(|side| self.cases[pair.sides[side][0].support].radial(tangential, speeds));
+        let radial = [0, 1].map(|side| self.cases[pair.sides[side][0].support].radial(&teeth, speeds));
         let closing = closings.get(pair.member).copied()?;
         Some(pair.stiff.as_ref()?.closings(loads.axial, radial, closing))
     }
 
-    /// The force of each support on its member, y and z, for given tangential forces at standstill. \[N\]
-    pub fn vectors(&self, tangential: &[f64]) -> Vec<[f64; 2]> {
+    /// The force of each support on its member, y and z, for given forces of the teeth, with carriers at standstill. \[N\]
+    pub fn vectors(&self, teeth: ToothForces<'_, f64>) -> Vec<[f64; 2]> {
         // Carriers are the only members whose speed matters.
         let carriers = self.cases.iter().flat_map(|cases| &cases.planets);
         let still = vec![0.0; carriers.map(|(carrier, _)| carrier + 1).max().unwrap_or(0)];
-        let sum = |cases: &Cases| cases.sum(|reaction| reaction.force, tangential, &still);
+        let sum = |cases: &Cases| cases.sum(|reaction| reaction.force, &teeth, &still);
         self.cases.iter().map(sum).collect()
     }
 
     /// The force of each support on its inner member, y and z, at the speeds of all members (rad/s). On a planet, y points away from the
     /// axis of the carrier. \[N\]
-    pub(crate) fn on_inner(&self, tangential: &[f64], speeds: &[f64]) -> Vec<[f64; 2]> {
+    pub(crate) fn on_inner(&self, teeth: ToothForces<'_, f64>, speeds: &[f64]) -> Vec<[f64; 2]> {
         let supports = self.cases.iter().zip(&self.turned);
         supports
             .map(|(cases, turned)| {
-                let force = cases.sum(|reaction| reaction.force, tangential, speeds);
+                let force = cases.sum(|reaction| reaction.force, &teeth, speeds);
                 if *turned { force.map(|part| -part) } else { force }
             })
             .collect()
@@ -382,10 +461,13 @@ fn from_the_carried(layout: &Layout, support: &SupportLayout) -> SupportLayout {
 /// Where loads can act on each member: its own forces and moments, meshes, members that it carries, a planet's centrifugal force. \[m\]
 fn loaded_places(layout: &Layout, own: &[Vec<(usize, SupportLayout)>], meshes_of: &[Vec<usize>]) -> Vec<Vec<f64>> {
     let mut loaded: Vec<Vec<f64>> = Vec::with_capacity(layout.members.len());
-    for (loads, meshes) in layout.members.iter().zip(meshes_of) {
+    for (m, (loads, meshes)) in layout.members.iter().zip(meshes_of).enumerate() {
         let forces = loads.forces.iter().map(|f| f.0);
         let moments = loads.moments.iter().map(|f| f.0);
-        let meshes = meshes.iter().map(|mesh| layout.meshes[*mesh].at);
+        let meshes = meshes.iter().map(|mesh| {
+            let mesh = &layout.meshes[*mesh];
+            mesh.at(usize::from(mesh.members()[0] != m), loads.start)
+        });
         loaded.push(forces.chain(moments).chain(meshes).collect());
     }
     for support in &layout.supports {
@@ -557,19 +639,52 @@ impl<'a> System<'a> {
         let mut units = vec![BTreeMap::new(); self.layout.supports.len()];
         for (i, mesh) in self.layout.meshes.iter().enumerate() {
             for unit in 0..2 {
-                let gears = (0..2).filter(|gear| !mesh.central[*gear]);
+                let gears = (0..2).filter(|gear| !mesh.is_central(*gear));
                 let actions = gears.map(|gear| {
+                    let member = mesh.members()[gear];
                     let action = Action {
-                        at: mesh.at,
+                        at: mesh.at(gear, self.layout.members[member].start),
                         arm: mesh.arm(gear),
                         force: mesh.forces(gear)[unit],
                         moment: [0.0; 2],
                     };
-                    (mesh.members[gear], vec![action])
+                    (member, vec![action])
                 });
                 for (support, reaction) in self.reactions(actions) {
                     units[support].entry(i).or_insert([Reaction::default(); 2])[unit] = reaction;
                 }
+            }
+        }
+        units
+    }
+
+    /// Reactions of each support to a newton of friction of each mesh that has friction in its forces.
+    fn friction(&self) -> Vec<Vec<(usize, Senses<Reaction>)>> {
+        let mut units = vec![Vec::new(); self.layout.supports.len()];
+        for (i, mesh) in self.layout.meshes.iter().enumerate() {
+            let [Some(first), Some(second)] = [0, 1].map(|gear| mesh.friction(gear)) else {
+                continue;
+            };
+            let mut own = BTreeMap::new();
+            for (sense, turn) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let actions = [first, second].into_iter().enumerate().map(|(gear, cases)| {
+                    let (force, moment) = cases[sense][turn];
+                    let member = mesh.members()[gear];
+                    let action = Action {
+                        at: mesh.at(gear, self.layout.members[member].start),
+                        arm: mesh.arm(gear),
+                        force,
+                        moment,
+                    };
+                    (member, vec![action])
+                });
+                for (support, reaction) in self.reactions(actions) {
+                    let cases: &mut Senses<Reaction> = own.entry(support).or_default();
+                    cases[sense][turn] = reaction;
+                }
+            }
+            for (support, cases) in own {
+                units[support].push((i, cases));
             }
         }
         units
@@ -627,13 +742,21 @@ impl<'a> System<'a> {
     /// Axial forces on one member; true if no support takes thrust, so that it passes through to the supporting member.
     fn axially(&self, m: usize, taking: Taking) -> (Axially, bool) {
         let (member, own) = (&self.layout.members[m], &self.own[m]);
-        let mut meshes = Vec::new();
+        let (mut meshes, mut crossed) = (Vec::new(), Vec::new());
         for &i in &self.meshes[m] {
             let mesh = &self.layout.meshes[i];
-            for gear in 0..2 {
-                if mesh.members[gear] == m && mesh.hand_tan_beta != 0.0 {
-                    let copies = if mesh.central[gear] { mesh.count } else { 1.0 };
-                    meshes.push((i, mesh.forces(gear)[0][0] * copies));
+            for gear in (0..2).filter(|gear| mesh.members()[*gear] == m && mesh.has_thrust()) {
+                let [along, of_size] = mesh.forces(gear).map(|force| force[0]);
+                match mesh.friction(gear) {
+                    None => {
+                        let copies = if mesh.is_central(gear) { mesh.count() } else { 1.0 };
+                        meshes.push((i, along * copies));
+                    }
+                    Some(friction) => crossed.push(CrossedThrust {
+                        mesh: i,
+                        normal: [along + of_size, along - of_size],
+                        friction: friction.map(|turns| turns.map(|(force, _)| force[0])),
+                    }),
                 }
             }
         }
@@ -647,6 +770,7 @@ impl<'a> System<'a> {
             always: member.forces.iter().map(|f| f.1[0]).sum(),
             size: member.forces.iter().map(|f| f.1[0].abs()).sum(),
             meshes,
+            crossed,
             taking,
             carrier: carrier.map(|carrier| (self.places[carrier], copies)),
         };
@@ -662,12 +786,14 @@ fn passed_on(mut order: Vec<(Axially, bool)>) -> Vec<Axially> {
             continue;
         };
         let (always, size, meshes) = (member.always, member.size, std::mem::take(&mut member.meshes));
+        let crossed = std::mem::take(&mut member.crossed);
         let carrier = &mut order[carrier].0;
         carrier.always += always * copies;
         carrier.size += size * copies;
         carrier
             .meshes
             .extend(meshes.into_iter().map(|(mesh, factor)| (mesh, factor * copies)));
+        carrier.crossed.extend(crossed.into_iter().map(|own| own.times(copies)));
     }
     let passing: Vec<Option<(usize, f64)>> = order
         .iter()

@@ -40,14 +40,29 @@ struct Teeth {
     sign: f64,
 }
 
+fn cylindrical(meshes: Vec<CylindricalMesh>) -> Vec<MeshLayout> {
+    meshes.into_iter().map(MeshLayout::Cylindrical).collect()
+}
+
+fn gears(mesh: &MeshLayout) -> &CylindricalMesh {
+    match mesh {
+        MeshLayout::Cylindrical(mesh) => mesh,
+        MeshLayout::Crossed(_) => panic!("a mesh of cylindrical gears"),
+    }
+}
+
+fn teeth<R>(tangential: &[R]) -> ToothForces<'_, R> {
+    ToothForces { tangential, friction: &[] }
+}
+
 impl Teeth {
-    fn mesh(&self, members: [usize; 2], at: f64, direction: [f64; 2], hand: f64) -> MeshLayout {
+    fn mesh(&self, members: [usize; 2], at: f64, direction: [f64; 2], hand: f64) -> CylindricalMesh {
         let beta = self.beta.to_radians();
         let alpha_t = (self.alpha.to_radians().tan() / beta.cos()).atan();
         let teeth = self.z[1] + self.sign * self.z[0];
         let reference = 0.5 * self.m / beta.cos() * teeth;
         let working = (reference * alpha_t.cos() / self.a).acos();
-        MeshLayout {
+        CylindricalMesh {
             members,
             at: at * 1e-3,
             radius: self.z.map(|z| self.a * 1e-3 * z / teeth),
@@ -82,7 +97,7 @@ fn two_speed() -> Layout {
             needle(3, 50.0),
             needle(4, 128.0),
         ],
-        meshes: vec![
+        meshes: cylindrical(vec![
             Teeth {
                 z: [16.0, 83.0],
                 m: 1.25,
@@ -110,7 +125,7 @@ fn two_speed() -> Layout {
                 sign: 1.0,
             }
             .mesh([4, 2], 128.0, [-0.8, -0.6], -1.0),
-        ],
+        ]),
     }
 }
 
@@ -119,7 +134,7 @@ fn all<R: Points>(solved: &ShaftLoads, tangential: &[R], speeds: &[R]) -> Vec<Su
     let mut loads = vec![SupportLoad::default(); solved.cases.len()];
     for group in solved.groups() {
         let mut passed = vec![R::ZERO; solved.scratch_len()];
-        solved.evaluate(group, tangential, speeds, &[], &mut passed, &mut loads);
+        solved.evaluate(group, teeth(tangential), speeds, &[], &mut passed, &mut loads);
     }
     loads
 }
@@ -133,7 +148,7 @@ fn loads_of(layout: &Layout, tangential: &[f64]) -> (Vec<SupportLoad>, Vec<[f64;
         let tangential: Vec<f64> = tangential.iter().map(|force| sense * force).collect();
         loads = all(&solved, &tangential, &vec![0.0; layout.members.len()]);
         // If a single mesh loads a support, its radial load is not computed from a vector; it must equal that of all meshes.
-        for (load, [y, z]) in loads.iter().zip(solved.vectors(&tangential)) {
+        for (load, [y, z]) in loads.iter().zip(solved.vectors(teeth(&tangential))) {
             let length = y.hypot(z);
             assert!(
                 (load.radial - length).abs() <= 1e-12 * length,
@@ -142,7 +157,7 @@ fn loads_of(layout: &Layout, tangential: &[f64]) -> (Vec<SupportLoad>, Vec<[f64;
             );
         }
     }
-    (loads, solved.vectors(tangential))
+    (loads, solved.vectors(teeth(tangential)))
 }
 
 /// Tangential forces of the two-speed example from its multipliers.
@@ -150,14 +165,14 @@ fn two_speed_forces(multipliers: [f64; 3]) -> Vec<f64> {
     let layout = two_speed();
     let z1 = [16.0, 24.0, 31.0];
     (0..3)
-        .map(|i| multipliers[i] * z1[i] / layout.meshes[i].radius[0])
+        .map(|i| multipliers[i] * z1[i] / gears(&layout.meshes[i]).radius[0])
         .collect()
 }
 
 #[test]
 fn t0_working_geometry_of_the_two_speed_example() {
     let layout = two_speed();
-    for (mesh, [r1, r2, alpha, beta]) in layout.meshes.iter().zip([
+    for (mesh, [r1, r2, alpha, beta]) in layout.meshes.iter().map(gears).zip([
         [11.1515152, 57.8484848, 22.3669428, 26.0517084],
         [22.08, 92.92, 20.7231108, 29.1410245],
         [28.0708661, 86.9291339, 20.8121097, 27.1971448],
@@ -363,13 +378,13 @@ fn six_shafts() -> Layout {
             support(5, 150.0, Axial::Both),
             support(5, 220.0, Axial::None),
         ],
-        meshes: vec![
+        meshes: cylindrical(vec![
             teeth([23.0, 57.0], 2.5, 18.0, 106.0, 1.0).mesh([0, 1], 40.0, unit(30.0), 1.0),
             teeth([19.0, 41.0], 3.0, 12.0, 92.5, 1.0).mesh([1, 2], 110.0, unit(-20.0), 1.0),
             teeth([41.0, 47.0], 3.0, 12.0, 135.5, 1.0).mesh([2, 3], 110.0, unit(65.0), -1.0),
             teeth([21.0, 64.0], 4.0, 0.0, 170.0, 1.0).mesh([3, 4], 60.0, unit(150.0), 0.0),
             teeth([26.0, 89.0], 3.5, 0.0, 110.25, -1.0).mesh([4, 5], 130.0, inner, 0.0),
-        ],
+        ]),
     }
 }
 
@@ -381,7 +396,7 @@ fn s2_s3_six_shafts() {
         [-3.47826087, 10.4347826, -10.4347826, 23.3540373, -57.486861]
             .iter()
             .zip(z1)
-            .zip(&layout.meshes)
+            .zip(layout.meshes.iter().map(gears))
             .map(|((lambda, z), mesh)| scale * lambda * z / mesh.radius[0])
             .collect()
     };
@@ -452,7 +467,7 @@ fn g_planet_bearing() {
         a,
         sign,
     };
-    let planet_mesh = |mesh: MeshLayout, central: [bool; 2]| MeshLayout {
+    let planet_mesh = |mesh: CylindricalMesh, central: [bool; 2]| CylindricalMesh {
         count: 3.0,
         central,
         ..mesh
@@ -491,7 +506,7 @@ fn g_planet_bearing() {
     let layout = Layout {
         members,
         supports: vec![pin],
-        meshes: vec![sun, ring],
+        meshes: cylindrical(vec![sun, ring]),
     };
     let solved = ShaftLoads::new(&layout).unwrap();
     assert_several_equal_single(&solved, layout.meshes.len(), &vec![100.0; layout.members.len()]);
@@ -932,7 +947,7 @@ fn a5_several_bearings_share_the_load_of_their_side() {
 fn loads_of_a_pair_are_found_together() {
     // Two spur meshes, each in the plane of one bearing.
     let [a, b] = opposed([0.3, 0.3]);
-    let mesh = |at: f64, mate: usize| MeshLayout {
+    let mesh = |at: f64, mate: usize| CylindricalMesh {
         members: [0, mate],
         at,
         radius: [0.03, 0.09],
@@ -950,7 +965,7 @@ fn loads_of_a_pair_are_found_together() {
     let layout = Layout {
         members: vec![MemberLayout::default(); 3],
         supports: vec![a, b, mate(1), mate(2)],
-        meshes: vec![mesh(0.0, 1), mesh(0.1, 2)],
+        meshes: cylindrical(vec![mesh(0.0, 1), mesh(0.1, 2)]),
     };
     let solved = ShaftLoads::new(&layout).unwrap();
     let group = &solved.groups()[solved.group_of(0)];
@@ -963,11 +978,11 @@ fn loads_of_a_pair_are_found_together() {
     assert_eq!([loads[0].axial, loads[1].axial], [0.3 * loads[1].radial; 2]);
     let mut passed = vec![0.0; solved.scratch_len()];
     let pair = solved
-        .pair_loads(1, &[0.0, 1000.0], &[0.0; 3], &[], &mut passed)
+        .pair_loads(1, teeth(&[0.0, 1000.0]), &[0.0; 3], &[], &mut passed)
         .unwrap();
     assert_eq!(pair.axial, [loads[0].axial, loads[1].axial]);
     assert_eq!((pair.thrust, pair.mutual()), (0.0, loads[0].axial));
-    assert_eq!(solved.pair_loads(2, &[0.0, 1000.0], &[0.0; 3], &[], &mut passed), None);
+    assert_eq!(solved.pair_loads(2, teeth(&[0.0, 1000.0]), &[0.0; 3], &[], &mut passed), None);
 }
 
 #[test]
@@ -1063,7 +1078,7 @@ proptest! {
     fn a_mesh_acts_equally_and_oppositely_on_both_gears(
         angle in 0.0..6.2_f64, force in -5000.0..5000.0_f64, beta in 0.0..0.6_f64, sign in prop_oneof![Just(1.0), Just(-1.0)],
     ) {
-        let mesh = MeshLayout {
+        let mesh = CylindricalMesh {
             members: [0, 1], at: 0.0, radius: [0.03, 0.09], sign, direction: [angle.cos(), angle.sin()],
             tan_alpha: 0.4, hand_tan_beta: beta.tan(), count: 1.0, central: [false; 2],
         };
@@ -1099,7 +1114,7 @@ fn e3_electric_drive_unit() {
                 support(2, 0.0, Axial::Both),
                 support(2, 120.0, Axial::None),
             ],
-            meshes: vec![
+            meshes: cylindrical(vec![
                 Teeth {
                     z: [31.0, 81.0],
                     m: 1.7,
@@ -1109,7 +1124,7 @@ fn e3_electric_drive_unit() {
                     sign: 1.0,
                 }
                 .mesh([0, 1], 35.0, [1.0, 0.0], hand),
-                MeshLayout {
+                CylindricalMesh {
                     at: 0.0,
                     ..Teeth {
                         z: [24.0, 83.0],
@@ -1121,7 +1136,7 @@ fn e3_electric_drive_unit() {
                     }
                     .mesh([1, 2], 0.0, [1.0, 0.0], -hand)
                 },
-            ],
+            ]),
         }
     };
     for (torque, hand, table) in [
@@ -1164,12 +1179,14 @@ fn e3_electric_drive_unit() {
     ] {
         let mut layout = layout(hand);
         // The second mesh is at 95 mm on the intermediate and at 60 mm on the output shaft: shift the output's bearings.
-        layout.meshes[1].at = 0.095;
+        if let MeshLayout::Cylindrical(mesh) = &mut layout.meshes[1] {
+            mesh.at = 0.095;
+        }
         layout.supports[4].at += 0.035;
         layout.supports[5].at += 0.035;
         // The torque applied to the input is balanced by the mesh: its torque on the pinion is the opposite.
-        let first = -torque / layout.meshes[0].radius[0];
-        let second = torque * 81.0 / 31.0 / layout.meshes[1].radius[0];
+        let first = -torque / gears(&layout.meshes[0]).radius[0];
+        let second = torque * 81.0 / 31.0 / gears(&layout.meshes[1]).radius[0];
         let (loads, _) = loads_of(&layout, &[first, second]);
         for (load, [radial, axial]) in loads.iter().zip(table) {
             // The centre distances are printed to nine digits, which leaves seven in the small difference of the angles.

@@ -1,6 +1,6 @@
 //! Solids of revolution that displace oil: gears and shafts.
 
-/// A disc on an axis along the shafts.
+/// A disc on an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
     /// Height of its axis. \[m\]
@@ -9,13 +9,14 @@ pub struct Disc {
     pub radius: f64,
     /// Width along the axis. \[m\]
     pub width: f64,
+    /// How much the surface rises across the axis per height of the level: one for a horizontal axis.
+    pub slope: f64,
 }
 
 impl Disc {
-    /// Volume below a level, and its derivative, if the surface rises by `slope` across the axis per height of the level: one without
-    /// inclination. \[m3 and m2\]
-    pub fn below(&self, level: f64, slope: f64) -> [f64; 2] {
-        let depth = (level - self.height) * slope + self.radius;
+    /// Volume below a level, and its derivative. \[m3 and m2\]
+    pub fn below(&self, level: f64) -> [f64; 2] {
+        let depth = (level - self.height) * self.slope + self.radius;
         if depth <= 0.0 {
             return [0.0, 0.0];
         }
@@ -27,6 +28,6 @@ impl Disc {
         } else {
             0.0
         };
-        [self.width * area, self.width * chord * slope]
+        [self.width * area, self.width * chord * self.slope]
     }
 }

@@ -13,8 +13,6 @@ pub struct Space {
     /// Coefficients over the share of the way to the next height. \[m3\]
     cubics: Vec<[f64; 4]>,
     discs: Vec<Disc>,
-    /// Depth across the shafts per height along the upward direction.
-    slope: f64,
 }
 
 /// The solids displace more than the outline holds: they reach out of it at this level. \[m\]
@@ -65,7 +63,6 @@ impl Space {
             cubics: cubics.collect(),
             heights,
             discs,
-            slope: 1.0 / up[1].hypot(up[2]),
         };
         match space.falls() {
             Some(level) => Err(Crowded(level)),
@@ -104,7 +101,7 @@ impl Space {
         let mut volume = a + share * (b + share * (c + share * d));
         let mut area = (b + share * (2.0 * c + share * 3.0 * d)) / length;
         for disc in &self.discs {
-            let [solid, cut] = disc.below(level, self.slope);
+            let [solid, cut] = disc.below(level);
             volume -= solid;
             area -= cut;
         }

@@ -28,12 +28,15 @@ const GEAR: Disc = Disc {
     height: 110.0 * MM,
     radius: 90.0 * MM,
     width: 30.0 * MM,
+    slope: 1.0,
 };
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
 fn space(discs: &[Disc], up: [f64; 3]) -> Space {
-    Space::new(&[case_a()], discs.to_vec(), up, 0.0).unwrap()
+    let slope = 1.0 / up[1].hypot(up[2]);
+    let discs = discs.iter().map(|disc| Disc { slope, ..*disc }).collect();
+    Space::new(&[case_a()], discs, up, 0.0).unwrap()
 }
 
 /// Equal to the printed digits of the second number.
@@ -59,7 +62,7 @@ fn volumes_below_a_level() {
         printed(a, area);
         printed(without.volume(level * MM)[0] / LITRE, empty);
     }
-    let [area, chord] = Disc { width: 1.0, ..GEAR }.below(50.0 * MM, 1.0);
+    let [area, chord] = Disc { width: 1.0, ..GEAR }.below(50.0 * MM);
     printed(area * 1e3, "2.787734");
     printed(chord / MM, "134.1641");
 }

@@ -16,7 +16,7 @@ use super::seats::{GearSeat, MeshSeat};
 use super::states::{GearState, states};
 use super::statics::{Imported, imported, load_factors, shaft_loads};
 use super::{
-    Component, DragModel, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Sump, Transmission, WHEELS,
+    Component, DragModel, MeshLaw, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Sump, Transmission, WHEELS,
 };
 use crate::attach::{Common, Level, Names, Places, Seated, SeatedClearance, SeatedPocket, SeatedSupport, dangling};
 use crate::codes;
@@ -583,7 +583,7 @@ fn document_order(numbers: &HashMap<&str, usize>, places: &[HashMap<&str, usize>
     let id = path.split('.').nth(1).unwrap_or_default();
     let number = numbers.get(section);
     let rank = match section {
-        "meshes" => 0,
+        "meshes" | "bevel_meshes" | "worm_meshes" | "crossed_helical_meshes" => 0,
         "gears" => 1,
         "planetary_sets" => 2,
         "bearings" => 3,
@@ -734,6 +734,10 @@ fn mesh_models(
 ) -> Vec<MeshModel> {
     let mut models = Vec::new();
     for (i, seat) in frame.meshes.iter().enumerate() {
+        let Some(teeth) = seat.cylindrical() else {
+            models.extend(crossed_model(seat, frame, oils));
+            continue;
+        };
         let id = seat.path.strip_prefix("meshes.");
         let Some(written) = id.and_then(|id| frame.entry.meshes.get(id)) else {
             continue;
@@ -747,7 +751,7 @@ fn mesh_models(
             ..Common::default()
         };
         let oil = oils.oil(&seat.path, &common);
-        let part = MeshPart::new(seat.pair, seat.ra, seat.rq, written.elastic_modulus, written.poisson);
+        let part = MeshPart::new(teeth.pair, seat.ra, seat.rq, written.elastic_modulus, written.poisson);
         let part = build.part_again(&seat.path, part.with_oil(oil.and_then(|oil| oils.lubricant(oil))));
         match build.slot_at::<GearMesh>(&format!("{}.model", seat.path), &part, &choice.value) {
             Ok(model) => {
@@ -763,10 +767,9 @@ fn mesh_models(
                     bodies: None,
                     loss_factor: written.loss_factor,
                     sharing: seat.members.iter().find_map(|m| frame.sharing[*m]),
-                    force_per_multiplier: f64::from(seat.pair.z[0]) / (seat.count * seat.pair.working_radius[0]),
+                    force_per_multiplier: force_per_multiplier(seat),
                     seat: seat.clone(),
-                    part,
-                    model,
+                    law: MeshLaw::Cylindrical { part, model },
                     oil: oil.unwrap_or(0),
                     greased: frame.entry.is_greased(written.lubricant.as_deref()),
                 });
@@ -775,6 +778,48 @@ fn mesh_models(
         }
     }
     models
+}
+
+/// Tangential force of one copy of a mesh per multiplier of its row. \[1/m\]
+fn force_per_multiplier(seat: &MeshSeat) -> f64 {
+    f64::from(seat.z()[0]) / (seat.count * seat.radius())
+}
+
+/// A mesh of gears on axes that cross.
+fn crossed_model(seat: &MeshSeat, frame: &Frame, oils: &mut OilNumbers<'_>) -> Option<MeshModel> {
+    let (section, id) = seat.path.split_once('.')?;
+    let entry = &frame.entry;
+    let (lubricant, temperature_offset, loss_factor) = match section {
+        "bevel_meshes" => {
+            let own = entry.bevel_meshes.get(id)?;
+            (&own.lubricant, own.temperature_offset, own.loss_factor)
+        }
+        "worm_meshes" => {
+            let own = entry.worm_meshes.get(id)?;
+            (&own.lubricant, own.temperature_offset, own.loss_factor)
+        }
+        _ => {
+            let own = entry.crossed_helical_meshes.get(id)?;
+            (&own.lubricant, own.temperature_offset, own.loss_factor)
+        }
+    };
+    let common = Common {
+        lubricant: lubricant.clone(),
+        temperature_offset,
+        loss_factor,
+        ..Common::default()
+    };
+    let oil = oils.oil(&seat.path, &common)?;
+    Some(MeshModel {
+        bodies: None,
+        loss_factor,
+        sharing: None,
+        force_per_multiplier: force_per_multiplier(seat),
+        seat: seat.clone(),
+        law: MeshLaw::Lossless,
+        oil,
+        greased: entry.is_greased(lubricant.as_deref()),
+    })
 }
 
 /// Reports seals that the oil at rest covers.
@@ -816,7 +861,7 @@ fn levels(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>) -> Ve
                 return Level::Dry;
             }
             gear.level
-                .map_or_else(|| oils.level(Some(g.member as u16), g.at), Level::Own)
+                .map_or_else(|| oils.level(Some(g.member as u16), g.tip_at), Level::Own)
         })
         .collect()
 }

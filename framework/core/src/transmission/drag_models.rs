@@ -47,8 +47,10 @@ impl Drags<'_, '_, '_> {
         for (i, gear) in self.gears.iter().enumerate() {
             let slots = self.entry.gears.0[i].1.drag.as_ref();
             if let Some(mesh) = self.meshes.iter().find(|m| m.gears.contains(&i)) {
-                let place = self.on_gear(i, gear, mesh);
-                self.add(slots, &place);
+                match self.on_gear(i, gear, mesh) {
+                    Some(place) => self.add(slots, &place),
+                    None => self.refuse(slots, &gear.id),
+                }
             }
         }
         for (number, mesh) in self.meshes.iter().enumerate() {
@@ -59,8 +61,9 @@ impl Drags<'_, '_, '_> {
                     temperature_offset: written.temperature_offset,
                     ..Common::default()
                 };
-                let place = self.on_mesh(number, mesh, common);
-                self.add(written.drag.as_ref(), &place);
+                if let Some(place) = self.on_mesh(number, mesh, common) {
+                    self.add(written.drag.as_ref(), &place);
+                }
             }
         }
         self.check_meshes_against_gears();
@@ -73,10 +76,25 @@ impl Drags<'_, '_, '_> {
         [0.5 * tip, 0.5 * reference]
     }
 
-    fn on_gear(&mut self, i: usize, gear: &GearSeat, mesh: &MeshSeat) -> Place {
+    /// Reports drag models of a gear on axes that cross.
+    fn refuse(&mut self, slots: Option<&NamedSlots<GearDrag>>, gear: &str) {
+        for (slot, choice) in slots.into_iter().flat_map(|slots| slots.0.iter()) {
+            if choice.value != "none" {
+                let message = format!("no drag law is available for `{gear}`, whose axis crosses that of its mate");
+                self.found.push(
+                    Diagnostic::error(format!("gears.{gear}.drag.{slot}"), message)
+                        .help(format!("write `drag: {{ {slot}: none }}` at the gear")),
+                );
+            }
+        }
+    }
+
+    /// A gear of a mesh of cylindrical gears; `None` of another mesh.
+    fn on_gear(&mut self, i: usize, gear: &GearSeat, mesh: &MeshSeat) -> Option<Place> {
         let written = &self.entry.gears.0[i].1;
         let revolves = mesh.carrier.is_some_and(|c| c != gear.member) && is_planet(self.entry, &gear.id);
-        Place {
+        let body = body(gear, i, mesh)?;
+        Some(Place {
             scope: Scope::Gear,
             seat: DragSeat {
                 path: format!("gears.{}", gear.id),
@@ -90,7 +108,7 @@ impl Drags<'_, '_, '_> {
             },
             part: (self.build).part_again(
                 &format!("gears.{}", gear.id),
-                part(self.entry, self.oils.filled(), body(gear, i, mesh), None),
+                part(self.entry, self.oils.filled(), body, None),
             ),
             common: Common {
                 lubricant: written.lubricant.clone(),
@@ -99,14 +117,14 @@ impl Drags<'_, '_, '_> {
                 count: 1,
             },
             number: i,
-        }
+        })
     }
 
-    fn on_mesh(&mut self, number: usize, mesh: &MeshSeat, common: Common) -> Place {
+    fn on_mesh(&mut self, number: usize, mesh: &MeshSeat, common: Common) -> Option<Place> {
         let [a, b] = mesh.gears;
         let factor = |gear: usize| self.entry.gears.0[gear].1.loss_factor;
-        let mate = body(&self.gears[b], b, mesh);
-        Place {
+        let (first, mate) = (body(&self.gears[a], a, mesh)?, body(&self.gears[b], b, mesh)?);
+        Some(Place {
             scope: Scope::Mesh,
             seat: DragSeat {
                 path: mesh.path.clone(),
@@ -123,7 +141,7 @@ impl Drags<'_, '_, '_> {
                 part(
                     self.entry,
                     self.oils.filled(),
-                    body(&self.gears[a], a, mesh),
+                    first,
                     Some(mate),
                 ),
             ),
@@ -133,7 +151,7 @@ impl Drags<'_, '_, '_> {
                 ..common
             },
             number: self.gears.len() + number,
-        }
+        })
     }
 
     /// Builds the models in the slots of a place.

@@ -1,6 +1,6 @@
 //! Drag on gears and meshes: seats, parts, and the causes that two models both cover.
 
-use super::seats::{GearSeat, MeshSeat};
+use super::seats::{CylindricalTeeth, GearSeat, MeshSeat};
 use crate::attach::Level;
 use crate::description::GearboxEntry;
 use crate::mechanism::gear_drag::{Covers, DragPart, GearBody};
@@ -35,25 +35,26 @@ pub fn mates(gear: usize, meshes: &[MeshSeat]) -> Vec<f64> {
     meshes
         .iter()
         .filter(|m| m.carrier.is_none())
-        .filter_map(|m| match m.gears {
-            [a, _] if a == gear => Some(m.direction[0]),
-            [_, b] if b == gear && !m.pair.internal => Some(-m.direction[0]),
+        .filter_map(|m| Some((m, m.cylindrical()?.direction)))
+        .filter_map(|(m, direction)| match m.gears {
+            [a, _] if a == gear => Some(direction[0]),
+            [_, b] if b == gear && !m.internal() => Some(-direction[0]),
             _ => None,
         })
         .collect()
 }
 
-/// The body of a gear in one mesh.
-pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> GearBody {
-    let pair = &mesh.pair;
+/// The body of a gear in a mesh of cylindrical gears; `None` of other ones.
+pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> Option<GearBody> {
+    let CylindricalTeeth { pair, direction, .. } = mesh.cylindrical()?;
     let side = usize::from(mesh.gears[0] != index);
     // The pitch point is at the working radius towards the mate.
     let upwards = if side == 0 {
-        mesh.direction[1]
+        direction[1]
     } else {
-        -pair.sign() * mesh.direction[1]
+        -pair.sign() * direction[1]
     };
-    GearBody {
+    Some(GearBody {
         z: gear.z,
         normal_module: pair.normal_module,
         pressure_angle: pair.pressure_angle,
@@ -64,7 +65,7 @@ pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> GearBody {
         tip_diameter: pair.tip_diameter[side],
         root_diameter: pair.root_diameter[side],
         contact_height: (pair.working_radius[side] * upwards + 0.5 * pair.tip_diameter[side]).max(0.0),
-    }
+    })
 }
 
 /// A part from the bodies and the housing, with the volume of the oil and the share of the housing that it fills. \[m3 and -\]

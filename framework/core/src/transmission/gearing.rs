@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::members::Members;
 use super::plausible;
-use super::seats::{GearSeat, MeshSeat};
+use super::seats::{CylindricalTeeth, GearSeat, MeshSeat, Teeth};
 use crate::attach::dangling;
 use crate::codes;
 use crate::description::{
@@ -32,24 +32,29 @@ pub(crate) fn gearing(
 ) -> (Vec<GearSeat>, Vec<MeshSeat>) {
     let mut gearing = Gearing::new(registry, entry, members, memory, found, warnings);
     gearing.check_gears();
-    let (meshes, orbits): (Vec<MeshSeat>, Vec<Orbit>) = entry
+    let (mut meshes, orbits): (Vec<MeshSeat>, Vec<Orbit>) = entry
         .meshes
         .iter()
         .filter_map(|(id, mesh)| gearing.mesh(format!("meshes.{id}"), mesh))
         .unzip();
-    let Gearing {
-        gears, found, warnings, ..
-    } = gearing;
-    one_orbit(entry, members, meshes.iter().zip(&orbits), found, warnings);
+    one_orbit(
+        entry,
+        members,
+        meshes.iter().zip(&orbits),
+        gearing.found,
+        gearing.warnings,
+    );
+    meshes.extend(gearing.crossed_meshes());
+    let Gearing { gears, .. } = gearing;
     (gears, meshes)
 }
 
 /// The gears while their meshes are computed one after the other: what a mesh determines holds for the next ones.
-struct Gearing<'a> {
+pub(super) struct Gearing<'a> {
     registry: &'a Registry,
-    entry: &'a GearboxEntry,
-    members: &'a Members,
-    gears: Vec<GearSeat>,
+    pub(super) entry: &'a GearboxEntry,
+    pub(super) members: &'a Members,
+    pub(super) gears: Vec<GearSeat>,
     /// Profile shifts, with the signs of ring gears according to ISO 21771.
     shifts: Vec<Option<f64>>,
     /// Hands of helical gears: 1 for right, -1 for left.
@@ -59,8 +64,8 @@ struct Gearing<'a> {
     /// Base pitches, each with the mesh that gives it. \[m\]
     pitches: Vec<Option<(f64, String)>>,
     memory: &'a mut Memory,
-    found: &'a mut Vec<Diagnostic>,
-    warnings: &'a mut Vec<Diagnostic>,
+    pub(super) found: &'a mut Vec<Diagnostic>,
+    pub(super) warnings: &'a mut Vec<Diagnostic>,
 }
 
 impl<'a> Gearing<'a> {
@@ -76,6 +81,7 @@ impl<'a> Gearing<'a> {
             id: id.to_owned(),
             member: member.unwrap_or(0),
             at: gear.at,
+            tip_at: gear.at,
             z: gear.z,
             facewidth: gear.facewidth,
             ring: gear.kind == GearKind::Ring,
@@ -124,7 +130,7 @@ impl<'a> Gearing<'a> {
     /// One mesh with its geometry; `None` if it is wrong, or a member or an axis of it is.
     fn mesh(&mut self, path: String, mesh: &MeshEntry) -> Option<(MeshSeat, Orbit)> {
         let members = self.members;
-        let [first, second] = self.mating(&path, mesh)?;
+        let [first, second] = self.mating(&path, &mesh.gears)?;
         let sign = if self.gears[second].ring { -1.0 } else { 1.0 };
         let bodies = [first, second].map(|gear| members.of_gear[gear].unwrap_or(0));
         let planets = bodies.map(|body| members.planets[body]);
@@ -142,6 +148,10 @@ impl<'a> Gearing<'a> {
             Some(_) => None,
             None => Some(self.between_axes(&path, mesh, [first, second], bodies)?),
         };
+        self.check_cylindrical(&path, [first, second])?;
+        if let Some(carried) = carried {
+            self.check_on_carrier(&path, bodies, carried.carrier)?;
+        }
         let apart = between.map(|v| v[0].hypot(v[1]));
         let spec = PairSpec {
             z: [self.gears[first].z, self.gears[second].z],
@@ -169,7 +179,6 @@ impl<'a> Gearing<'a> {
             _ if sign < 0.0 => [1.0, 0.0],
             _ => [if planets[0].is_some() { -1.0 } else { 1.0 }, 0.0],
         };
-        let surface = |gear: usize| self.entry.gears.0[gear].1.surface;
         let written = self.entry.gears.0[second].1.profile_shift.is_some() && spec.centre_distance.is_none();
         let other = turned(&spec)
             .filter(|_| written)
@@ -184,21 +193,75 @@ impl<'a> Gearing<'a> {
             members: bodies,
             carrier: carried.map(|c| c.carrier),
             count: carried.map_or(1.0, |c| c.count),
-            pair,
-            hand,
-            direction,
-            ra: [first, second].map(|g| surface(g).map_or(USUAL_RA, |s| s.ra)),
-            rq: [first, second].map(|g| surface(g).map_or(1.25 * USUAL_RA, |s| s.rq.unwrap_or(1.25 * s.ra))),
+            teeth: Teeth::Cylindrical(CylindricalTeeth { pair, hand, direction }),
+            ra: self.ra([first, second]),
+            rq: self.rq([first, second]),
         };
         Some((seat, orbit))
     }
 
+    /// Arithmetic mean roughness of the flanks of both gears. \[m\]
+    pub(super) fn ra(&self, gears: [usize; 2]) -> [f64; 2] {
+        gears.map(|gear| self.entry.gears.0[gear].1.surface.map_or(USUAL_RA, |own| own.ra))
+    }
+
+    /// Root mean square roughness of the flanks of both gears. \[m\]
+    pub(super) fn rq(&self, gears: [usize; 2]) -> [f64; 2] {
+        gears.map(|gear| {
+            let surface = self.entry.gears.0[gear].1.surface;
+            surface.map_or(1.25 * USUAL_RA, |own| own.rq.unwrap_or(1.25 * own.ra))
+        })
+    }
+
+    /// Checks what only gears of other sections may have; `None` with an error.
+    fn check_cylindrical(&mut self, path: &str, gears: [usize; 2]) -> Option<()> {
+        let before = self.found.len();
+        for gear in gears {
+            let (id, written) = &self.entry.gears.0[gear];
+            if written.z < 5 {
+                let message = format!("{} teeth, but a cylindrical gear in `{path}` has at least 5", written.z);
+                self.found.push(
+                    Diagnostic::error(format!("gears.{id}.z"), message)
+                        .help("correct the number of teeth, or describe a worm in `worm_meshes`"),
+                );
+            }
+            if written.faces.is_some() {
+                self.found.push(
+                    Diagnostic::error(format!("gears.{id}.faces"), "a cylindrical gear faces no side")
+                        .code(codes::CROSSED)
+                        .help("remove it; it belongs to gears of `bevel_meshes`"),
+                );
+            }
+        }
+        (self.found.len() == before).then_some(())
+    }
+
+    /// Checks that the axes of gears in mesh with a planet are parallel to that of the carrier; `None` with an error.
+    fn check_on_carrier(&mut self, path: &str, bodies: [usize; 2], carrier: usize) -> Option<()> {
+        let of_carrier = self.members.axes[carrier]?;
+        let parallel = |body: usize| {
+            let own = self.members.axes[body];
+            own.is_none_or(|own| of_carrier.to_parallel(&own).is_some())
+        };
+        let Some(body) = bodies.into_iter().find(|body| !parallel(*body)) else {
+            return Some(());
+        };
+        let names = &self.members.names;
+        let message = format!("the axis of `{}` is not parallel to that of the carrier `{}`", names[body], names[carrier]);
+        self.found.push(
+            Diagnostic::error(format!("{path}.gears"), message)
+                .code(codes::AXES)
+                .help("give both shafts the same direction; planets on axes that cross that of their carrier are not available"),
+        );
+        None
+    }
+
     /// The gears that a mesh names: two different ones, a ring gear second.
-    fn mating(&mut self, path: &str, mesh: &MeshEntry) -> Option<[usize; 2]> {
+    pub(super) fn mating(&mut self, path: &str, gears: &[String; 2]) -> Option<[usize; 2]> {
         let ids: Vec<&str> = self.entry.gears.ids().collect();
         let mut pair = [0; 2];
         let mut known = true;
-        for (i, name) in mesh.gears.iter().enumerate() {
+        for (i, name) in gears.iter().enumerate() {
             if let Some(gear) = self.entry.gears.index(name) {
                 pair[i] = gear;
                 known &= self.members.of_gear[gear].is_some();
@@ -252,7 +315,24 @@ impl<'a> Gearing<'a> {
             }
             return None;
         };
-        let between = [b[0] - a[0], b[1] - a[1]];
+        let Some(between) = a.to_parallel(&b) else {
+            let message = if a.is_parallel(&b) {
+                "the axes are parallel, but their directions are opposite"
+            } else {
+                "the axes are not parallel"
+            };
+            let help = if a.is_parallel(&b) {
+                "reverse `direction` of one of the shafts and the sign of its positions"
+            } else {
+                "describe the pair in `bevel_meshes`, `worm_meshes` or `crossed_helical_meshes`, or correct `axis` of a shaft"
+            };
+            self.found.push(
+                Diagnostic::error(format!("{path}.gears"), message)
+                    .code(codes::AXES)
+                    .help(help),
+            );
+            return None;
+        };
         let apart = between[0].hypot(between[1]);
         if let Some(given) = mesh.centre_distance
             && (apart / given - 1.0).abs() > 1e-4
@@ -275,7 +355,9 @@ impl<'a> Gearing<'a> {
 
     /// The face width that two gears have in common. \[m\]
     fn common_facewidth(&mut self, path: &str, pair: [usize; 2]) -> Option<f64> {
-        let edge = |gear: &GearSeat, side: f64| gear.at + side * 0.5 * gear.facewidth;
+        // Positions count from different points if the axes have directions.
+        let start = |gear: &GearSeat| self.members.axes[gear.member].map_or(0.0, |axis| axis.start());
+        let edge = |gear: &GearSeat, side: f64| start(gear) + gear.at + side * 0.5 * gear.facewidth;
         let [a, b] = pair.map(|gear| &self.gears[gear]);
         let facewidth = edge(a, 1.0).min(edge(b, 1.0)) - edge(a, -1.0).max(edge(b, -1.0));
         if facewidth <= 0.0 {
@@ -484,9 +566,13 @@ fn one_orbit<'a>(
         let Some((first, at_first)) = meshes_of_body.next() else {
             continue;
         };
-        let distance = first.pair.centre_distance;
+        let Some(distance) = first.cylindrical().map(|teeth| teeth.pair.centre_distance) else {
+            continue;
+        };
         for (other, at_other) in meshes_of_body {
-            let more = other.pair.centre_distance;
+            let Some(more) = other.cylindrical().map(|teeth| teeth.pair.centre_distance) else {
+                continue;
+            };
             if equal(more, distance) {
                 continue;
             }

@@ -191,10 +191,9 @@ fn of_gears(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>, fou
             .code(codes::UNCOUNTED),
         );
     }
-    for (id, mesh) in entry.meshes.iter() {
-        let is_greased = entry.is_greased(mesh.lubricant.as_deref());
-        if let Some(other) = mesh
-            .gears
+    for (path, gears, of_mesh) in entry.all_meshes() {
+        let is_greased = entry.is_greased(of_mesh);
+        if let Some(other) = gears
             .iter()
             .find(|gear| entry.is_greased(lubricant(gear)) != is_greased)
         {
@@ -205,7 +204,7 @@ fn of_gears(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>, fou
             };
             found.push(
                 Diagnostic::warning(
-                    format!("meshes.{id}.lubricant"),
+                    format!("{path}.lubricant"),
                     format!("the teeth run in {mesh_has}, but the lubricant of `{other}`, for its drag, is {gear_has}"),
                 )
                 .help("name the same `lubricant` for the mesh and its gears"),

@@ -1,5 +1,6 @@
 //! The oil space of a housing from its description: sections of the drawing, or the hull of the gears; solids that displace oil.
 
+use super::axis::Axis;
 use super::members::Members;
 use super::seats::GearSeat;
 use crate::codes;
@@ -26,7 +27,7 @@ pub(crate) struct Inside {
 }
 
 /// The axis of each member with the radius of its orbit.
-pub(crate) type Axes = [Option<([f64; 2], f64)>];
+pub(crate) type Axes = [Option<(Axis, f64)>];
 
 /// What determines the space, so that it is built once for descriptions that differ in other values.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +46,7 @@ impl Inside {
         members: &Members,
         gears: &[GearSeat],
         axes: &Axes,
-        (up, datum): ([f64; 3], [f64; 2]),
+        (up, datum): ([f64; 3], [f64; 3]),
         memory: &mut Memory,
         found: &mut Vec<Diagnostic>,
     ) -> Option<Self> {
@@ -56,11 +57,13 @@ impl Inside {
         } else {
             vec![of_gears(entry, &stated, gears, axes, memory)?]
         };
-        let height = up[1] * datum[0] + up[2] * datum[1];
+        let height = if datum[0] == 0.0 {
+            up[1] * datum[1] + up[2] * datum[2]
+        } else {
+            up[0] * datum[0] + up[1] * datum[1] + up[2] * datum[2]
+        };
         let input = Input {
-            discs: discs(entry, members, gears, axes, &sections, |[y, z], x| {
-                up[0] * x + up[1] * y + up[2] * z - height
-            }),
+            discs: discs(entry, members, gears, axes, &sections, (up, height)),
             sections: sections.clone(),
             up,
             datum: height,
@@ -159,7 +162,7 @@ fn drawn_section(section: &InsideSection) -> Result<Outline, (String, &'static s
     Ok(outline)
 }
 
-/// The hull of the gears with gaps.
+/// The hull of the gears with gaps; `None` if a section along x does not describe it.
 fn of_gears(
     entry: &GearboxEntry,
     stated: &InsideEntry,
@@ -167,7 +170,8 @@ fn of_gears(
     axes: &Axes,
     memory: &mut Memory,
 ) -> Option<Outline> {
-    if gears.iter().any(|gear| gear.ring) {
+    let is_along_x = |gear: &GearSeat| axes[gear.member].is_some_and(|(axis, _)| axis.is_along_x());
+    if gears.iter().any(|gear| gear.ring || !is_along_x(gear)) {
         return None;
     }
     let clearance = entry.housing.clearance;
@@ -176,10 +180,11 @@ fn of_gears(
     let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
     for gear in gears.iter().filter(|gear| gear.diameters[1] > 0.0) {
         let (axis, orbit) = axes[gear.member]?;
-        circles.push((axis, orbit + 0.5 * gear.diameters[1] + radial));
+        let [x, y, z] = axis.point(gear.at);
+        circles.push(([y, z], orbit + 0.5 * gear.diameters[1] + radial));
         ends = [
-            ends[0].min(gear.at - 0.5 * gear.facewidth),
-            ends[1].max(gear.at + 0.5 * gear.facewidth),
+            ends[0].min(x - 0.5 * gear.facewidth),
+            ends[1].max(x + 0.5 * gear.facewidth),
         ];
     }
     if circles.is_empty() {
@@ -201,18 +206,30 @@ fn discs(
     gears: &[GearSeat],
     axes: &Axes,
     sections: &[Outline],
-    height: impl Fn([f64; 2], f64) -> f64,
+    (up, datum): ([f64; 3], f64),
 ) -> Vec<Disc> {
+    let disc = |axis: &Axis, at: f64, radius: f64, width: f64| {
+        let [x, y, z] = axis.point(at);
+        let slope = if axis.is_along_x() {
+            1.0 / up[1].hypot(up[2])
+        } else {
+            // The disc reaches from its lowest to its highest point, also if it lies flat.
+            let [along, first, second] = axis.local(up);
+            2.0 * radius / (2.0 * radius * first.hypot(second) + width * along.abs())
+        };
+        Disc {
+            height: up[0] * x + up[1] * y + up[2] * z - datum,
+            radius,
+            width,
+            slope,
+        }
+    };
     let fixed = |member: usize| axes[member].filter(|(_, orbit)| *orbit == 0.0).map(|(axis, _)| axis);
     let wheels = gears.iter().filter(|gear| !gear.ring && gear.diameters[0] > 0.0);
-    let wheels: Vec<(Disc, [f64; 2], [f64; 2])> = wheels
+    let wheels: Vec<(Disc, Axis, [f64; 2])> = wheels
         .filter_map(|gear| {
             let axis = fixed(gear.member)?;
-            let disc = Disc {
-                height: height(axis, gear.at),
-                radius: 0.5 * gear.diameters[0],
-                width: gear.facewidth,
-            };
+            let disc = disc(&axis, gear.at, 0.5 * gear.diameters[0], gear.facewidth);
             Some((
                 disc,
                 axis,
@@ -226,7 +243,7 @@ fn discs(
         for part in &shaft.sections {
             let mut free: Vec<[f64; 2]> = sections
                 .iter()
-                .map(|section| both([part.from, part.to], section.range))
+                .map(|section| both([part.from, part.to], reach(&axis, section)))
                 .collect();
             for (_, _, taken) in wheels.iter().filter(|(_, own, _)| *own == axis) {
                 free = free
@@ -235,14 +252,32 @@ fn discs(
                     .collect();
                 free.retain(|range| range[1] > range[0]);
             }
-            discs.extend(free.iter().filter(|range| range[1] > range[0]).map(|range| Disc {
-                height: height(axis, 0.5 * (range[0] + range[1])),
-                radius: 0.5 * part.outer,
-                width: range[1] - range[0],
+            let free = free.iter().filter(|range| range[1] > range[0]);
+            discs.extend(free.map(|range| {
+                let middle = 0.5 * (range[0] + range[1]);
+                disc(&axis, middle, 0.5 * part.outer, range[1] - range[0])
             }));
         }
     }
     discs
+}
+
+/// Positions between which an axis is in a section: between its ends and between its outermost corners. \[m\]
+fn reach(axis: &Axis, section: &Outline) -> [f64; 2] {
+    let [x, y, _] = axis.direction();
+    let within = |range: [f64; 2], origin: f64, slope: f64| {
+        if slope == 0.0 {
+            let inside = range[0] <= origin && origin <= range[1];
+            return if inside { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
+        }
+        let [a, b] = range.map(|end| (end - origin) / slope);
+        [a.min(b), a.max(b)]
+    };
+    let along = within(section.range, axis.origin[0], x);
+    if axis.is_along_x() {
+        return along;
+    }
+    both(along, within(section.extent(), axis.origin[1], y))
 }
 
 /// What two ranges have in common.

@@ -1,6 +1,8 @@
 //! Members: shafts and idler gears, including the planets.
 
+use super::axis::Axis;
 use crate::attach::dangling;
+use crate::codes;
 use crate::description::{GearboxEntry, Mounting};
 use crate::document::Diagnostic;
 
@@ -19,7 +21,9 @@ pub struct Members {
     /// Shafts in the order of the document, then idler gears.
     pub names: Vec<String>,
     /// Axis of each member, if it has one.
-    pub axes: Vec<Option<[f64; 2]>>,
+    pub axes: Vec<Option<Axis>>,
+    /// The axis of each member, of a planet body that of its carrier: the frame of its loads.
+    pub frames: Vec<Axis>,
     /// Set for planet bodies.
     pub planets: Vec<Option<OnCarrier>>,
     /// True for idler gears.
@@ -31,7 +35,7 @@ pub struct Members {
 impl Members {
     pub fn new(entry: &GearboxEntry, found: &mut Vec<Diagnostic>) -> Self {
         let mut names: Vec<String> = entry.shafts.ids().map(str::to_owned).collect();
-        let mut axes: Vec<Option<[f64; 2]>> = entry.shafts.iter().map(|(_, s)| s.axis).collect();
+        let mut axes = axes_of_shafts(entry, found);
         let shafts = names.clone();
         let ids: Vec<&str> = shafts.iter().map(String::as_str).collect();
         let mut of_gear = Vec::new();
@@ -89,15 +93,19 @@ impl Members {
                 }
             }
         }
-        for (i, name) in shafts.iter().enumerate() {
-            if axes[i].is_none() && planets[i].is_none() {
+        for (i, (name, shaft)) in entry.shafts.iter().enumerate() {
+            if shaft.axis.is_none() && planets[i].is_none() {
                 found.push(
                     Diagnostic::error(format!("shafts.{name}"), "`axis` is missing")
                         .help("add `axis: [y, z]`; only a planet body has none, because its axis moves"),
                 );
             }
         }
+        let frame = |m: usize| axes[planets[m].map_or(m, |planet: OnCarrier| planet.carrier)];
+        let frames = (0..names.len()).map(|m| frame(m).unwrap_or(Axis::along_x([0.0; 2])));
+        let frames = frames.collect();
         Self {
+            frames,
             names,
             axes,
             planets,
@@ -105,4 +113,21 @@ impl Members {
             of_gear,
         }
     }
+}
+
+/// The axes of the shafts; reports those without a direction.
+fn axes_of_shafts(entry: &GearboxEntry, found: &mut Vec<Diagnostic>) -> Vec<Option<Axis>> {
+    let mut axes = Vec::with_capacity(entry.shafts.0.len());
+    for (name, shaft) in entry.shafts.iter() {
+        let axis = shaft.axis.as_ref().map(Axis::new);
+        if axis == Some(None) {
+            found.push(
+                Diagnostic::error(format!("shafts.{name}.axis.direction"), "the direction has no length")
+                    .code(codes::AXES)
+                    .help("state the direction of the axis, such as `[0, 1, 0]` along y"),
+            );
+        }
+        axes.push(axis.flatten());
+    }
+    axes
 }

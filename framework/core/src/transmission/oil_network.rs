@@ -229,9 +229,7 @@ impl Names<'_, '_> {
             let is_gear = fed
                 .strip_prefix("gears.")
                 .is_some_and(|id| entry.gears.get(id).is_some());
-            let is_mesh = fed
-                .strip_prefix("meshes.")
-                .is_some_and(|id| entry.meshes.get(id).is_some());
+            let is_mesh = entry.has_mesh(fed);
             if !is_gear && !is_mesh && !self.around.parts.iter().any(exists) {
                 let parts: Vec<&str> = self.around.parts.iter().map(|part| part.path.as_str()).collect();
                 self.found

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::axis::Axis;
 use super::inside::Inside;
 use super::members::Members;
 use super::nodes::NodeNames;
@@ -17,6 +18,9 @@ use crate::mechanism::gear_mesh::MeshOil;
 use crate::real::{Points, Real};
 use crate::registry::Memory;
 use crate::table::clamped;
+
+/// Least rise across an axis.
+const UPRIGHT: f64 = 1e-6;
 
 /// Oil height of the sump above its datum at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -166,9 +170,10 @@ pub(crate) struct OilNumbers<'a> {
     /// What determines levels from volumes, once the drag models are built.
     pub sump: Option<Sump>,
     /// Axis of each member, and the radius of its orbit.
-    axes: Vec<Option<([f64; 2], f64)>>,
+    axes: Vec<Option<(Axis, f64)>>,
     up: [f64; 3],
-    datum: [f64; 2],
+    /// Where heights count from. \[m\]
+    datum: [f64; 3],
     nodes: &'a NodeNames,
     pub findings: Vec<Diagnostic>,
     pub warnings: Vec<Diagnostic>,
@@ -186,7 +191,7 @@ impl<'a> OilNumbers<'a> {
         let names: Vec<&str> = entry.lubricants.ids().collect();
         let mut lubricants = lubricants(entry, memory, &mut findings);
         // A planet's axis orbits that of its carrier.
-        let axes: Vec<Option<([f64; 2], f64)>> = (0..members.names.len())
+        let axes: Vec<Option<(Axis, f64)>> = (0..members.names.len())
             .map(|m| match members.planets[m] {
                 Some(planet) => Some((members.axes[planet.carrier]?, orbit(m, members, meshes)?)),
                 None => Some((members.axes[m]?, 0.0)),
@@ -195,7 +200,7 @@ impl<'a> OilNumbers<'a> {
         let broken = lubricants.len() < names.len();
         let up = upward(entry.housing.grade, entry.housing.bank);
         let shafts: Vec<&str> = members.names.iter().map(String::as_str).collect();
-        let mut datum = [0.0; 2];
+        let mut datum = [0.0; 3];
         let mut surface = Surface::AtRest;
         let mut default = None;
         if let Some(oil) = &entry.housing.oil {
@@ -205,7 +210,11 @@ impl<'a> OilNumbers<'a> {
             }
             if let Some(from) = &oil.measured_from {
                 match shafts.iter().position(|s| s == from) {
-                    Some(member) => datum = members.axes[member].unwrap_or_default(),
+                    Some(member) => {
+                        let axis = members.axes[member].filter(|axis| !axis.is_along_x());
+                        let along_x = members.axes[member].map_or([0.0; 3], |axis| [0.0, axis.origin[1], axis.origin[2]]);
+                        datum = axis.map_or(along_x, |axis| axis.origin);
+                    }
                     None => findings.push(dangling("housing.oil.measured_from", "shaft", from, &shafts)),
                 }
             }
@@ -515,13 +524,21 @@ impl Places for OilNumbers<'_> {
         if !self.has_level() {
             return Level::Dry;
         }
-        let Some(([y, z], orbit)) = member.and_then(|m| self.axes[m as usize]) else {
+        let Some((axis, orbit)) = member.and_then(|m| self.axes[m as usize]) else {
             return Level::Dry;
         };
-        let height = self.up[0] * at + self.up[1] * (y - self.datum[0]) + self.up[2] * (z - self.datum[1]);
+        let [x, y, z] = axis.point(at);
+        let [x, y, z] = [x - self.datum[0], y - self.datum[1], z - self.datum[2]];
+        // How much of a step across the axis is upwards: none if the shaft stands upright, where a disc is in the oil or out of it.
+        let across = if axis.is_along_x() {
+            self.up[1].hypot(self.up[2])
+        } else {
+            let [_, first, second] = axis.local(self.up);
+            first.hypot(second).max(UPRIGHT)
+        };
         Level::Sump {
-            height,
-            slope: 1.0 / self.up[1].hypot(self.up[2]),
+            height: self.up[0] * x + self.up[1] * y + self.up[2] * z,
+            slope: 1.0 / across,
             orbit,
         }
     }

@@ -190,7 +190,7 @@ pub fn models(
             .filter(|g| gears[**g].member == *first)
             .filter_map(|g| {
                 let mesh = meshes.iter().find(|m| m.gears.contains(g))?;
-                Some(part(entry, oils.filled(), body(&gears[*g], *g, mesh), None))
+                Some(part(entry, oils.filled(), body(&gears[*g], *g, mesh)?, None))
             })
             .collect();
         let part = PlanetaryPart {
@@ -277,10 +277,10 @@ pub fn assembly(
             let seats: Vec<&MeshSeat> = meshes.iter().filter(|m| m.members.contains(&body)).collect();
             let [a, b] = seats[..] else { continue };
             let one_gear = a.gears.iter().any(|g| b.gears.contains(g));
-            if one_gear && a.pair.internal != b.pair.internal {
+            if one_gear && a.internal() != b.internal() {
                 let central = |m: &MeshSeat| {
                     let side = usize::from(m.members[0] == body);
-                    (members.planets[m.members[side]].is_none()).then(|| m.pair.z[side])
+                    (members.planets[m.members[side]].is_none()).then(|| m.z()[side])
                 };
                 if let (Some(first), Some(second)) = (central(a), central(b))
                     && !(first + second).is_multiple_of(set.count)

@@ -1,5 +1,8 @@
 //! Gears and meshes with their geometry and members, as the other modules of a transmission refer to them.
 
+use std::sync::Arc;
+
+use super::crossed::CrossedTeeth;
 use super::members::Members;
 use crate::geometry::Pair;
 
@@ -10,8 +13,10 @@ pub struct GearSeat {
     pub id: String,
     /// Member that it rotates with.
     pub member: usize,
-    /// Middle of the face width along the shafts. \[m\]
+    /// Middle of the face width along the shaft; of gears on axes that cross the position of their mean point. \[m\]
     pub at: f64,
+    /// Position of the largest tip circle along the shaft: that of a bevel gear is at its outer end. \[m\]
+    pub tip_at: f64,
     /// Number of teeth.
     pub z: u32,
     /// Face width. \[m\]
@@ -36,21 +41,84 @@ pub(crate) struct MeshSeat {
     /// Number of equal copies.
     pub count: f64,
     /// Geometry.
-    pub pair: Pair,
-    /// Hand of the first gear: one right, minus one left, zero without net thrust.
-    pub hand: f64,
-    /// Unit vector in y and z from the axis of the first gear to the contact.
-    pub direction: [f64; 2],
+    pub teeth: Teeth,
     /// Roughness Ra of both flanks. \[m\]
     pub ra: [f64; 2],
     /// Roughness Rq of both flanks. \[m\]
     pub rq: [f64; 2],
 }
 
+/// Teeth in mesh.
+#[derive(Debug, Clone)]
+pub(crate) enum Teeth {
+    /// Cylindrical gears on parallel axes.
+    Cylindrical(CylindricalTeeth),
+    /// Gears on axes that cross.
+    Crossed(Arc<CrossedTeeth>),
+}
+
+/// Teeth of cylindrical gears on parallel axes.
+#[derive(Debug, Clone)]
+pub(crate) struct CylindricalTeeth {
+    /// Geometry.
+    pub pair: Pair,
+    /// Hand of the first gear: one right, minus one left, zero without net thrust.
+    pub hand: f64,
+    /// Unit vector across the axes, in the frame of their direction (y and z of axes along x), from the axis of the first gear to the contact.
+    pub direction: [f64; 2],
+}
+
+impl MeshSeat {
+    /// Teeth of cylindrical gears.
+    pub fn cylindrical(&self) -> Option<&CylindricalTeeth> {
+        match &self.teeth {
+            Teeth::Cylindrical(teeth) => Some(teeth),
+            Teeth::Crossed(_) => None,
+        }
+    }
+
+    /// Teeth of gears on axes that cross.
+    pub fn crossed(&self) -> Option<&Arc<CrossedTeeth>> {
+        match &self.teeth {
+            Teeth::Cylindrical(_) => None,
+            Teeth::Crossed(teeth) => Some(teeth),
+        }
+    }
+
+    /// True if the second gear is a ring gear.
+    pub fn internal(&self) -> bool {
+        self.cylindrical().is_some_and(|teeth| teeth.pair.internal)
+    }
+
+    /// Numbers of teeth.
+    pub fn z(&self) -> [u32; 2] {
+        match &self.teeth {
+            Teeth::Cylindrical(teeth) => teeth.pair.z,
+            Teeth::Crossed(teeth) => teeth.cones.z,
+        }
+    }
+
+    /// Sign of the second number of teeth in the constraint of speeds.
+    pub fn sign(&self) -> f64 {
+        match &self.teeth {
+            Teeth::Cylindrical(teeth) => teeth.pair.sign(),
+            Teeth::Crossed(teeth) => teeth.sign(),
+        }
+    }
+
+    /// Radius at which the tangential force of the first gear acts. \[m\]
+    pub fn radius(&self) -> f64 {
+        match &self.teeth {
+            Teeth::Cylindrical(teeth) => teeth.pair.working_radius[0],
+            Teeth::Crossed(teeth) => teeth.cones.radius[0],
+        }
+    }
+}
+
 /// Orbit radius of a planet body; `None` if it meshes with no gear on the central axis. \[m\]
 pub fn orbit(body: usize, members: &Members, meshes: &[MeshSeat]) -> Option<f64> {
     meshes
         .iter()
-        .find(|m| m.members.contains(&body) && !m.members.iter().all(|b| members.planets[*b].is_some()))
-        .map(|m| m.pair.centre_distance)
+        .filter(|m| m.members.contains(&body) && !m.members.iter().all(|b| members.planets[*b].is_some()))
+        .find_map(|m| Some(m.cylindrical()?.pair.centre_distance))
 }

@@ -59,14 +59,14 @@ pub struct Stage {
 }
 
 impl Transmission {
-    /// Derived geometry of all meshes, in the order of the document.
+    /// Derived geometry of all meshes of cylindrical gears, in the order of the document.
     pub fn stages(&self) -> impl Iterator<Item = Stage> {
-        self.meshes.iter().map(|mesh| {
-            let pair = &mesh.part.pair;
+        self.meshes.iter().filter_map(|mesh| {
+            let pair = &mesh.law.cylindrical()?.pair;
             let gears = mesh.seat.gears.map(|g| &self.gears[g]);
             let mm = |lengths: [f64; 2]| lengths.map(|length| length * 1e3);
             let external = |gear: usize| Some(gear).filter(|gear| !pair.internal || *gear == 0);
-            Stage {
+            Some(Stage {
                 mesh: mesh.seat.path.clone(),
                 gears: gears.map(|g| g.id.clone()),
                 z: pair.z,
@@ -95,7 +95,7 @@ impl Transmission {
                 }),
                 undercut_limit: [0, 1].map(|gear| external(gear).map(|gear| pair.undercut_limit(gear))),
                 specific_sliding: pair.involute.then(|| pair.specific_sliding()),
-            }
+            })
         })
     }
 

@@ -200,13 +200,13 @@ fn all_open(
         freedom: 0,
     };
     for mesh in meshes {
-        let [z1, z2] = mesh.pair.z.map(f64::from);
+        let [z1, z2] = mesh.z().map(f64::from);
         let row = MeshRow {
             row: state.rows.len(),
             first: Some(mesh.members[0]),
             z1,
             second: Some(mesh.members[1]),
-            sz2: mesh.pair.sign() * z2,
+            sz2: mesh.sign() * z2,
             carrier: mesh.carrier,
         };
         let speeds = Row::mesh(row.first, row.z1, row.second, row.sz2, row.carrier);
@@ -425,7 +425,8 @@ fn shares(
 ) -> Vec<Share> {
     let mut shares = Vec::new();
     let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
-    let known: Vec<&str> = entry.meshes.ids().collect();
+    let ids_of_meshes = || meshes.iter().filter_map(|mesh| Some(mesh.path.split_once('.')?.1));
+    let known: Vec<&str> = ids_of_meshes().collect();
     for (i, share) in entry.torque_shares.iter().enumerate() {
         let path = format!("torque_shares.{i}");
         let Some(member) = ids.iter().position(|m| *m == share.member) else {
@@ -453,7 +454,7 @@ fn shares(
             .meshes
             .iter()
             .map(|name| {
-                let number = meshes.iter().position(|m| m.path == format!("meshes.{name}"));
+                let number = ids_of_meshes().position(|id| id == name);
                 match number {
                     Some(number) if meshes[number].members.contains(&member) => Some(number),
                     Some(_) => {

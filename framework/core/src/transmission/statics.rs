@@ -3,16 +3,19 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use nalgebra::Vector3;
+
 use super::members::Members;
 use super::pairs::{Design, NotCounted};
 use super::preloads;
-use super::seats::{MeshSeat, orbit};
+use super::crossed::{CrossedTeeth, Wrench};
+use super::seats::{CylindricalTeeth, MeshSeat, Teeth, orbit};
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
 use crate::loads::{
-    Induced, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
+    CrossedMesh, CylindricalMesh, Induced, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
     Thrust,
 };
 use crate::real::Real;
@@ -170,8 +173,9 @@ fn member_layout(
     meshes: &[MeshSeat],
     found: &mut Vec<Diagnostic>,
 ) -> MemberLayout {
-    let name = &members.names[i];
+    let (name, axis) = (&members.names[i], &members.frames[i]);
     let mut member = MemberLayout {
+        start: members.frames[i].start(),
         loose: members.loose[i],
         ..MemberLayout::default()
     };
@@ -181,7 +185,7 @@ fn member_layout(
     if shaft.mass > 0.0 && members.planets[i].is_none() {
         let up = crate::immersion::upward(entry.housing.grade, entry.housing.bank);
         match shaft.mass_at {
-            Some(at) => member.forces.push((at, up.map(|u| -u * shaft.mass * GRAVITY))),
+            Some(at) => member.forces.push((at, axis.local(up.map(|u| -u * shaft.mass * GRAVITY)))),
             None => found.push(
                 Diagnostic::error(format!("shafts.{name}"), "a mass without `mass_at`")
                     .help("add `mass_at:`, the position of the centre of mass along the shaft"),
@@ -189,7 +193,7 @@ fn member_layout(
         }
     }
     for load in &shaft.loads {
-        member.forces.push((load.at, load.force));
+        member.forces.push((load.at, axis.local(load.force)));
         member.moments.push((load.at, load.moment));
     }
     member.hinges.clone_from(&shaft.hinges);
@@ -230,7 +234,7 @@ fn support_layout(
     let (inner, outer) = (support.inner as usize, support.outer.map(usize::from));
     if let Some(outer) = outer
         && let [Some(a), Some(b)] = [inner, outer].map(|m| members.axes[m])
-        && (a[0] - b[0]).hypot(a[1] - b[1]) > 1e-6
+        && !a.is_same(&b)
     {
         found.push(
             Diagnostic::error(
@@ -240,7 +244,7 @@ fn support_layout(
                     members.names[inner], members.names[outer]
                 ),
             )
-            .help("place both members on the same axis"),
+            .help("give both members the same `axis`, also the point from which positions count"),
         );
     }
     SupportLayout {
@@ -259,27 +263,64 @@ fn support_layout(
     }
 }
 
-/// A mesh; its force acts in the middle of the common face width.
+/// A mesh; the force of cylindrical gears acts in the middle of the common face width, that of others at the mean point.
 fn mesh_layout(mesh: &MeshSeat, entry: &GearboxEntry, members: &Members) -> MeshLayout {
+    match &mesh.teeth {
+        Teeth::Cylindrical(teeth) => MeshLayout::Cylindrical(cylindrical_layout(mesh, teeth, entry, members)),
+        Teeth::Crossed(teeth) => MeshLayout::Crossed(Box::new(crossed_layout(mesh, teeth, members))),
+    }
+}
+
+fn cylindrical_layout(
+    mesh: &MeshSeat,
+    teeth: &CylindricalTeeth,
+    entry: &GearboxEntry,
+    members: &Members,
+) -> CylindricalMesh {
     let [a, b] = mesh.gears.map(|g| &entry.gears.0[g].1);
-    let left = (a.at - 0.5 * a.facewidth).max(b.at - 0.5 * b.facewidth);
-    let right = (a.at + 0.5 * a.facewidth).min(b.at + 0.5 * b.facewidth);
-    MeshLayout {
+    let [start_a, start_b] = mesh.members.map(|member| members.frames[member].start());
+    let (at_a, at_b) = (start_a + a.at, start_b + b.at);
+    let left = (at_a - 0.5 * a.facewidth).max(at_b - 0.5 * b.facewidth);
+    let right = (at_a + 0.5 * a.facewidth).min(at_b + 0.5 * b.facewidth);
+    let pair = &teeth.pair;
+    CylindricalMesh {
         members: mesh.members,
-        at: if (a.at - b.at).abs() < 1e-9 {
-            a.at
+        at: if (at_a - at_b).abs() < 1e-9 {
+            at_a
         } else {
             0.5 * (left + right)
         },
-        radius: mesh.pair.working_radius,
-        sign: mesh.pair.sign(),
-        direction: mesh.direction,
-        tan_alpha: mesh.pair.working_angle.tan(),
-        hand_tan_beta: mesh.hand * mesh.pair.working_helix.tan(),
+        radius: pair.working_radius,
+        sign: pair.sign(),
+        direction: teeth.direction,
+        tan_alpha: pair.working_angle.tan(),
+        hand_tan_beta: teeth.hand * pair.working_helix.tan(),
         count: mesh.count,
         central: mesh
             .members
             .map(|m| mesh.carrier.is_some() && members.planets[m].is_none()),
+    }
+}
+
+fn crossed_layout(mesh: &MeshSeat, teeth: &CrossedTeeth, members: &Members) -> CrossedMesh {
+    let axes = mesh.members.map(|member| &members.frames[member]);
+    let local = |gear: usize, vector: Vector3<f64>| {
+        // The second gear has the opposite forces.
+        let sense = if gear == 0 { 1.0 } else { -1.0 };
+        axes[gear].local((vector * sense).into())
+    };
+    let across = |[_, y, z]: [f64; 3]| [y, z];
+    CrossedMesh {
+        members: mesh.members,
+        at: [0, 1].map(|gear| axes[gear].position(teeth.mean_point.into())),
+        arm: [0, 1].map(|gear| across(axes[gear].local(teeth.arm(gear).into()))),
+        normal: [0, 1].map(|gear| teeth.flanks.map(|flank| local(gear, flank.normal))),
+        friction: [0, 1].map(|gear| {
+            teeth.flanks.map(|flank| {
+                let wrench = |wrench: Wrench| (local(gear, wrench.force), across(local(gear, wrench.moment)));
+                flank.friction.map(wrench)
+            })
+        }),
     }
 }
 
@@ -303,7 +344,7 @@ fn unsupported(
         let member = &layout.members[i];
         let loaded = meshes
             .clone()
-            .any(|m| (0..2).any(|g| m.members[g] == i && !m.central[g]))
+            .any(|m| (0..2).any(|g| m.members()[g] == i && !m.is_central(g)))
             || !(member.forces.is_empty() && member.moments.is_empty());
         let without = if members.loose[i] {
             entry.gears.get(name).and_then(|gear| gear.bearings)
@@ -337,9 +378,10 @@ fn unsupported(
             ),
             _ => {}
         }
-        let helical = meshes.clone().any(|m| m.hand_tan_beta != 0.0);
+        let helical = meshes.clone().any(MeshLayout::has_thrust);
         if helical && !members.loose[i] && !supports.is_empty() {
-            for (side, words) in [(Axial::Right, "+x"), (Axial::Left, "-x")] {
+            let [forwards, back] = members.frames[i].senses();
+            for (side, words) in [(Axial::Right, forwards), (Axial::Left, back)] {
                 let taken = supports.iter().any(|s| s.axial == side || s.axial == Axial::Both);
                 if !taken {
                     warnings.push(
@@ -444,7 +486,8 @@ fn explain(
             supports,
             right,
         } => {
-            let words = if *right { "+x" } else { "-x" };
+            let [forwards, back] = members.frames[*member].senses();
+            let words = if *right { forwards } else { back };
             Diagnostic::error(
                 at(*member),
                 format!(

@@ -126,8 +126,8 @@ fn gears(t: &Transmission) -> PageTable {
 
 fn meshes(t: &Transmission) -> PageTable {
     let rows = t
-        .meshes()
-        .map(|(path, part)| {
+        .cylindrical_meshes()
+        .map(|(_, path, part)| {
             let p = &part.pair;
             vec![
                 path.trim_start_matches("meshes.").to_owned(),

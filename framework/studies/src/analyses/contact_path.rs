@@ -236,7 +236,10 @@ impl ContactPathEntry {
         }
         let model = &built.resolved.value["meshes"][&self.mesh]["model"];
         let load_sharing = sharing(model);
-        let (places, no_friction) = self.places(cx, built, &solution.mesh_at(index), (model, load_sharing))?;
+        let Some(at) = solution.mesh_at(index) else {
+            return Err(self.not_found(cx, t));
+        };
+        let (places, no_friction) = self.places(cx, built, &at, (model, load_sharing))?;
         Ok(ContactPath {
             model_set: built.name.clone(),
             mesh: self.mesh.clone(),
@@ -255,9 +258,8 @@ impl ContactPathEntry {
     fn mesh(&self, cx: &Planner<'_>, t: &Transmission) -> Result<usize, Stopped> {
         let mesh_path = format!("meshes.{}", self.mesh);
         let path = format!("{}.mesh", cx.path());
-        let Some((index, (_, part))) = t.meshes().enumerate().find(|(_, (path, _))| *path == mesh_path) else {
-            let names: Vec<&str> = t.meshes().map(|(path, _)| path.trim_start_matches("meshes.")).collect();
-            return Err(cx.found(vec![dangling(&path, "mesh", &self.mesh, &names)]));
+        let Some((index, _, part)) = t.cylindrical_meshes().find(|(_, path, _)| *path == mesh_path) else {
+            return Err(self.not_found(cx, t));
         };
         if !part.pair.involute {
             return Err(cx.wrong(
@@ -270,6 +272,13 @@ impl ContactPathEntry {
             ));
         }
         Ok(index)
+    }
+
+    /// The error that there is no such mesh.
+    fn not_found(&self, cx: &Planner<'_>, t: &Transmission) -> Stopped {
+        let names = t.cylindrical_meshes().map(|(_, path, _)| path.trim_start_matches("meshes."));
+        let names: Vec<&str> = names.collect();
+        cx.found(vec![dangling(&format!("{}.mesh", cx.path()), "mesh", &self.mesh, &names)])
     }
 
     /// The points on the path of a mesh at one operating point, and the reason if there is no friction.

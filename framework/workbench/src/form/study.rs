@@ -55,9 +55,9 @@ impl NewStudy {
         Ok(Self {
             gear: state.name.clone(),
             mesh: transmission
-                .meshes()
+                .cylindrical_meshes()
                 .next()
-                .map(|(path, _)| path.trim_start_matches("meshes.").to_owned()),
+                .map(|(_, path, _)| path.trim_start_matches("meshes.").to_owned()),
             rating: transmission.rating.as_ref().map(|r| [r.torque, r.speed.rpm()]),
             port,
             unfit,

@@ -30,6 +30,10 @@ pub struct Blank {
     pub facewidth: [f64; 2],
     /// Outer tip diameters.
     pub tip_diameter: [f64; 2],
+    /// How far the faces reach outwards from the mean point, along the pitch cones.
+    pub outer: [f64; 2],
+    /// Dedenda at the outer ends.
+    pub outer_dedendum: [f64; 2],
 }
 
 /// How far the face of a gear reaches from the mean point to its outer and inner end. \[m\]
@@ -63,17 +67,20 @@ impl Blank {
             mean_addendum,
             mean_dedendum,
         };
-        let (of_pinion, pinion_angle) = if cones.offset == 0.0 {
-            (of_wheel, depth.dedendum_angle)
+        let (of_pinion, pinion_angles) = if cones.offset == 0.0 {
+            (of_wheel, [depth.dedendum_angle, depth.addendum_angle])
         } else {
             teeth.pinion(of_wheel)
         };
         let reach = [of_pinion, of_wheel];
-        let addendum_angle = [pinion_angle, depth.addendum_angle];
+        let addendum_angle = [pinion_angles[0], depth.addendum_angle];
+        let dedendum_angle = [pinion_angles[1], depth.dedendum_angle];
         Self {
             mean_addendum,
             mean_dedendum,
             facewidth: reach.map(|reach| reach.outer + reach.inner),
+            outer: reach.map(|reach| reach.outer),
+            outer_dedendum: [0, 1].map(|i| mean_dedendum[i] + reach[i].outer * dedendum_angle[i].tan()),
             tip_diameter: [0, 1].map(|i| {
                 let (sine, cosine) = cones.pitch_angle[i].sin_cos();
                 let pitch = 2.0 * (cones.cone_distance()[i] + reach[i].outer) * sine;
@@ -99,20 +106,25 @@ impl Teeth<'_> {
         let cones = self.cones;
         let beyond = cones.shaft_angle - FRAC_PI_2;
         let long = cones.cone_distance()[1] * between.cos() - cones.apex_beyond_crossing()[1] * pitch_angle.cos();
-        let turned = (cones.offset * beyond.tan() * pitch_angle.cos() / long).atan();
-        (cones.offset * turned.cos() * pitch_angle.sin() / long).asin() - turned
+        // Blanks are surfaces of revolution: the side of the offset does not matter.
+        let offset = cones.offset.abs();
+        let turned = (offset * beyond.tan() * pitch_angle.cos() / long).atan();
+        (offset * turned.cos() * pitch_angle.sin() / long).asin() - turned
     }
 
-    /// Face of the pinion of a hypoid pair beyond the mean point, and its addendum angle.
-    fn pinion(&self, wheel: Reach) -> (Reach, f64) {
+    /// Face of the pinion of a hypoid pair beyond the mean point, and its addendum and dedendum angles.
+    fn pinion(&self, wheel: Reach) -> (Reach, [f64; 2]) {
         let (cones, depth) = (self.cones, self.depth);
         let beyond = cones.shaft_angle - FRAC_PI_2;
         let root = cones.pitch_angle[1] - depth.dedendum_angle;
         let angle = self.element(root, depth.dedendum_angle);
         let tip = (beyond.sin() * root.sin() + beyond.cos() * root.cos() * angle.cos()).asin();
+        let wheel_tip = cones.pitch_angle[1] + depth.addendum_angle;
+        let at_tip = self.element(wheel_tip, depth.addendum_angle);
+        let bottom = (beyond.sin() * wheel_tip.sin() + beyond.cos() * wheel_tip.cos() * at_tip.cos()).asin();
         let [d1, d2] = cones.pitch_angle;
         let addendum_angle = tip - d1;
-        let (u, offset_angle) = (cones.ratio(), cones.offset_angle());
+        let (u, offset_angle) = (cones.ratio(), cones.offset_angle().abs());
         let turned = (offset_angle.sin() * d2.cos() / (u * d1.cos() + d2.cos() * offset_angle.cos())).atan();
         let facewidth = wheel.outer + wheel.inner;
         let projected = facewidth * turned.cos() / (offset_angle - turned).cos();
@@ -126,6 +138,6 @@ impl Teeth<'_> {
             outer: (outer + addendum) / inclined,
             inner: (inner - addendum) / (d1.cos() - addendum_angle.tan() * d1.sin()),
         };
-        (reach, addendum_angle)
+        (reach, [addendum_angle, d1 - bottom])
     }
 }

@@ -87,6 +87,23 @@ impl ToothPath {
         })
     }
 
+    /// Mean friction force of one newton along the path, with even load, on the first gear turning forwards, and its mean moment about the
+    /// mean point. Its power over the speed of the first gear is minus the mean sliding velocity. \[-, m\]
+    pub fn mean_friction(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let turning = self.turning();
+        let (least, change, place) = (turning.least, turning.change, turning.place);
+        let steepness = change.norm_squared();
+        // Means of 1/v, t/v and t^2/v over the distance t from the place of least sliding, v the sliding speed.
+        let inverse = self.mean(|t| turning.logarithm(t));
+        let first = self.mean(|t| turning.speed(t) / steepness);
+        let second = self.mean(|t| {
+            (t * turning.speed(t) - least.norm_squared() * turning.logarithm(t)) / (2.0 * steepness)
+        });
+        let force = -(least * inverse + change * first);
+        let weighted = least * (first + place * inverse) + change * (second + place * first);
+        (force, -self.flank_normal.cross(&weighted))
+    }
+
     /// Mean along the path of what has this primitive over the distance from the place of least sliding.
     fn mean(&self, primitive: impl Fn(f64) -> f64) -> f64 {
         let place = self.turning().place;
