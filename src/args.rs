@@ -184,7 +184,7 @@ pub struct NewGearboxArgs {
     pub output: PathBuf,
 }
 
-/// Layouts that are asked for and cannot be described yet.
+/// Layouts that are asked for and do not exist.
 const UNDESCRIBED: [&str; 9] = [
     "worm",
     "bevel",

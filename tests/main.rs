@@ -17,7 +17,6 @@ mod consumption;
 mod corpus;
 mod counts;
 mod coverage;
-mod crossed;
 mod cycle;
 mod dependencies;
 mod derivatives;

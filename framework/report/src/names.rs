@@ -3,16 +3,19 @@
 use crate::text::last_key;
 
 /// A section of a gearbox: its key, one of its components, all of them.
-const SECTIONS: [[&str; 3]; 9] = [
+const SECTIONS: [[&str; 3]; 12] = [
     ["auxiliaries", "auxiliary", "auxiliaries"],
     ["bearings", "bearing", "bearings"],
+    ["bevel_meshes", "bevel mesh", "bevel meshes"],
     ["clutches", "clutch", "clutches"],
     ["couplings", "coupling", "couplings"],
+    ["crossed_helical_meshes", "crossed helical mesh", "crossed helical meshes"],
     ["gears", "gear", "gears"],
     ["meshes", "mesh", "meshes"],
     ["planetary_sets", "planetary set", "planetary sets"],
     ["seals", "seal", "seals"],
     ["shafts", "shaft", "shafts"],
+    ["worm_meshes", "worm mesh", "worm meshes"],
 ];
 
 /// Mechanisms by their key.

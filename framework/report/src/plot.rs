@@ -39,8 +39,11 @@ const MECHANISMS: [(&str, RGBColor); 9] = [
 ];
 
 /// Mechanisms of the components of a section of the gearbox.
-const SECTIONS: [(&str, &str); 8] = [
+const SECTIONS: [(&str, &str); 11] = [
     ("meshes", "gear_mesh"),
+    ("bevel_meshes", "gear_mesh"),
+    ("worm_meshes", "gear_mesh"),
+    ("crossed_helical_meshes", "gear_mesh"),
     ("gears", "gear_drag"),
     ("bearings", "bearing"),
     ("seals", "seal"),

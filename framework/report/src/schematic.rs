@@ -5,6 +5,7 @@ mod axes;
 mod canvas;
 mod draw;
 mod oil;
+mod projection;
 mod things;
 
 use serde_json::Value;
@@ -30,9 +31,15 @@ const HEIGHT: f64 = 420.0;
 /// auxiliaries without `at` have the position zero in the resolved document; they are drawn at a free position with a dashed outline. Every
 /// component is a group with its path in `data-part`.
 ///
+/// If axes are not parallel, the drawing has two views instead, from above and from the side, with the outlines of all bodies to one scale;
+/// components without a stated position are not in it.
+///
 /// `resolved` is the resolved document that the transmission was built from (`Resolved::value`).
 pub fn schematic(transmission: &Transmission, resolved: &Value) -> String {
     let things = Things::new(transmission, resolved);
+    if projection::is_needed(transmission) {
+        return projection::projected(transmission, &things);
+    }
     let (scale, along, axes) = laid_out(&things);
     let mut canvas = Canvas::default();
     draw::draw_all(&mut canvas, &things, &along, &axes, scale);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gearloss_framework::language::{DESCRIBE_THE_REST, Kind, undescribed_stage};
+use gearloss_framework::language::{DESCRIBE_THE_REST, Kind, stage_with_section, undescribed_stage};
 use gearloss_workbench::form::{LAYOUTS, Layout};
 
 use super::{print_next, word, write, write_schema};
@@ -49,6 +49,12 @@ fn study_of(file: &Path) -> String {
 
 /// A layout whose physics is not modelled.
 fn undescribed(layout: &str) -> Failure {
+    if let Some((stage, section)) = stage_with_section(layout) {
+        return Failure::input(
+            format!("no layout has {stage}"),
+            format!("start with another layout, and describe the pair in `{section}`: docs/gearbox.md shows it"),
+        );
+    }
     let stage = undescribed_stage(layout).unwrap_or("such gearboxes");
     Failure::input(format!("{stage} cannot be described yet"), DESCRIBE_THE_REST)
 }

@@ -9,14 +9,14 @@ use super::canvas::{Canvas, Rect, Voice};
 use super::things::{Kind, Things};
 
 // Colours of Okabe and Ito, light inside and dark at the edge; every symbol also has its own shape. Pages give the classes dark colours.
-const FIXED: &str = "class=\"fixed\" fill=\"#cfe6f5\" stroke=\"#0072b2\" stroke-width=\"1.3\"";
-const LOOSE: &str = "class=\"loose\" fill=\"#fbe6bd\" stroke=\"#a06a00\" stroke-width=\"1.3\"";
-const SHAFT: &str = "class=\"shaft\" fill=\"#d5d5d5\" stroke=\"#444\" stroke-width=\"0.9\"";
+pub(super) const FIXED: &str = "class=\"fixed\" fill=\"#cfe6f5\" stroke=\"#0072b2\" stroke-width=\"1.3\"";
+pub(super) const LOOSE: &str = "class=\"loose\" fill=\"#fbe6bd\" stroke=\"#a06a00\" stroke-width=\"1.3\"";
+pub(super) const SHAFT: &str = "class=\"shaft\" fill=\"#d5d5d5\" stroke=\"#444\" stroke-width=\"0.9\"";
 const GROUND: &str = "class=\"line\" fill=\"none\" stroke=\"#555\" stroke-width=\"1\"";
 const BOX: &str = "class=\"box\" fill=\"#f6f6f6\" stroke=\"#444\" stroke-width=\"1.2\"";
-const CENTRE: &str = "class=\"line\" fill=\"none\" stroke=\"#999\" stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\"";
+pub(super) const CENTRE: &str = "class=\"line\" fill=\"none\" stroke=\"#999\" stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\"";
 const MESH: &str = "class=\"mesh\" fill=\"none\" stroke=\"#8a3f6b\" stroke-width=\"1.8\" stroke-dasharray=\"1.5 4\" stroke-linecap=\"round\"";
-const PORT: &str = "class=\"port\" fill=\"#000\" stroke=\"#000\" stroke-width=\"1.6\"";
+pub(super) const PORT: &str = "class=\"port\" fill=\"#000\" stroke=\"#000\" stroke-width=\"1.6\"";
 const DASHED: &str = " stroke-dasharray=\"4 2.5\"";
 
 /// Half the thickness of a planet's pin. \[px\]
@@ -31,7 +31,7 @@ fn style(base: &str, stated: bool) -> String {
 }
 
 /// An id with the number of its copies.
-fn label(id: &str, count: f64) -> String {
+pub(super) fn label(id: &str, count: f64) -> String {
     if count > 1.0 {
         format!("{id} \u{d7}{count:.0}")
     } else {
@@ -225,7 +225,7 @@ impl Draw<'_> {
 }
 
 /// The largest of 1, 2, 5, 10, ... that is not longer. \[m\]
-fn round_length(most: f64) -> f64 {
+pub(super) fn round_length(most: f64) -> f64 {
     let decade = 10.0_f64.powf(most.log10().floor());
     let steps = [5.0, 2.0, 1.0];
     steps

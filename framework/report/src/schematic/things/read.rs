@@ -173,7 +173,16 @@ fn trains(count: usize, contacts: &[Contact]) -> Vec<Vec<usize>> {
 }
 
 /// Sections of the framework that hold no components of mechanisms.
-const FRAMEWORK: [&str; 5] = ["gears", "meshes", "shafts", "planetary_sets", "differentials"];
+const FRAMEWORK: [&str; 8] = [
+    "gears",
+    "meshes",
+    "bevel_meshes",
+    "worm_meshes",
+    "crossed_helical_meshes",
+    "shafts",
+    "planetary_sets",
+    "differentials",
+];
 
 pub(super) fn parts(members: &[Member], wheels: &[Wheel], resolved: &Value) -> Vec<Part> {
     let sections = resolved.as_object().into_iter().flatten().map(|(name, _)| name);

@@ -2,14 +2,21 @@
 
 use std::fmt::Write as _;
 
-use crate::common::{RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow, Solution};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
+
+/// rad/s of 1/min.
+const RPM: f64 = std::f64::consts::PI / 30.0;
+
+fn language() -> Language {
+    Language::linked().unwrap()
+}
 
 /// The bevel stage of ISO 23509 annex F.2: pinion along x, wheel along y.
 const BEVEL: &str = "
