@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use schemars::SchemaGenerator;
 use serde_json::Value;
 
-pub use undescribed::{DESCRIBE_THE_REST, undescribed_stage};
+pub use undescribed::{DESCRIBE_THE_REST, stage_with_section, undescribed_stage};
 
 use crate::codes;
 use crate::coefficients::COEFFICIENTS;

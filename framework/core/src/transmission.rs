@@ -38,7 +38,7 @@ pub use pairs::{BearingPair, PairedBearing};
 pub use preloads::{BodyTemperature, PairPreload, PreloadBy};
 pub use seats::GearSeat;
 pub(crate) use seats::MeshSeat;
-pub use stage::Stage;
+pub use stage::{CrossedStage, Stage};
 pub use states::GearState;
 pub use sump::Sump;
 pub use torque_order::{TorqueBlock, TorqueOrder};
@@ -224,6 +224,8 @@ pub struct RatedSupport {
 pub struct Transmission {
     pub(crate) title: String,
     pub(crate) members: Vec<String>,
+    /// Axis of each member, of planets that of their carrier.
+    pub(crate) axes: Vec<Axis>,
     pub(crate) ports: Vec<Port>,
     /// Ports with equal speed that are one among `ports`; usually empty.
     pub(crate) wheels: Vec<Port>,
@@ -275,6 +277,20 @@ impl Transmission {
     /// Names of shafts and idler gears, by number.
     pub fn members(&self) -> &[String] {
         &self.members
+    }
+    /// Axes of shafts and idler gears, by number; of a planet that of its carrier.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+    /// Pitch angle of a bevel gear by its number, and one if its shaft runs from apex to base, else minus one; `None` of other gears. \[rad\]
+    pub fn cone_of_gear(&self, gear: usize) -> Option<(f64, f64)> {
+        let seats = self.meshes.iter().map(|mesh| &mesh.seat);
+        let mut cones = seats.filter_map(|seat| {
+            let side = seat.gears.iter().position(|own| *own == gear)?;
+            let teeth = seat.crossed().filter(|teeth| teeth.kind == CrossedKind::Bevel)?;
+            Some((teeth.cones.pitch_angle[side], teeth.along[side]))
+        });
+        cones.next()
     }
     /// Ports.
     pub fn ports(&self) -> &[Port] {

@@ -403,7 +403,7 @@ fn empty_components_of_the_planetary_model_are_left_out() {
 fn worm_stages_are_refused_plainly() {
     let found = refused(&data(WORM), WORM);
     assert!(
-        found.contains("error[E0805]: worm_stage 3: worm stages are not described yet"),
+        found.contains("error[E0805]: worm_stage 3: worm stages are not imported yet"),
         "{found}"
     );
     assert!(found.contains(&format!("{WORM}:471:5")), "{found}");

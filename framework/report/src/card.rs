@@ -1,9 +1,10 @@
 //! Key data of a gearbox: its stages and teeth, its bearings and their pairs, the ratio of each gear, its oil.
 
-use gearloss_framework::transmission::{Stage, Transmission};
+use gearloss_framework::transmission::{CrossedStage, Stage, Transmission};
 use gearloss_studies::bearings::{BearingCard, bearing_cards};
 use gearloss_studies::checked::CheckedGearbox;
 use gearloss_studies::pairs::pair_cards;
+use serde::Serialize;
 use serde_json::Value;
 
 use crate::text::{TextTable, last_key, number, short, significant};
@@ -16,6 +17,10 @@ pub fn card(checked: &CheckedGearbox) -> String {
     if !stages.is_empty() {
         text.push_str(&stage_table(&stages));
         text.push_str(&tooth_table(&stages));
+    }
+    let crossed: Vec<CrossedStage> = transmission.crossed_stages().collect();
+    if !crossed.is_empty() {
+        text.push_str(&crossed_table(&crossed));
     }
     let bearings = bearing_cards(checked);
     if !bearings.is_empty() {
@@ -57,6 +62,38 @@ fn ratio_lines(transmission: &Transmission) -> String {
         text.push_str(&format!("gear {}: {ratios}\n", state.name));
     }
     text
+}
+
+/// Stages of gears on axes that cross; values of both gears with a slash.
+fn crossed_table(stages: &[CrossedStage]) -> String {
+    let mut table = TextTable::new(&[
+        "stage",
+        "z",
+        "ratio",
+        "shaft angle deg",
+        "offset mm",
+        "pitch angles deg",
+        "spiral angles deg",
+        "m_mn mm",
+        "d_m mm",
+        "mean point at mm",
+    ]);
+    let both = |values: [f64; 2], digits: usize| format!("{:.digits$}/{:.digits$}", values[0], values[1]);
+    for stage in stages {
+        table.row(vec![
+            last_key(&stage.mesh).to_owned(),
+            format!("{}/{}", stage.z[0], stage.z[1]),
+            format!("{:.4}", stage.ratio),
+            format!("{:.3}", stage.shaft_angle_deg),
+            format!("{:.3}", stage.offset_mm),
+            both(stage.pitch_angle_deg, 3),
+            both(stage.spiral_angle_deg.map(f64::abs), 3),
+            format!("{:.4}", stage.mean_normal_module_mm),
+            both(stage.mean_diameter_mm, 3),
+            both(stage.at_mm, 3),
+        ]);
+    }
+    table.render()
 }
 
 /// What determines a stage.
@@ -185,7 +222,7 @@ fn mesh_name(stage: &Stage) -> String {
 }
 
 /// All data of a stage at full precision, one line each: key and value as in JSON.
-pub fn stage_lines(stage: &Stage) -> Vec<String> {
+pub fn stage_lines(stage: &impl Serialize) -> Vec<String> {
     let value = serde_json::to_value(stage).unwrap_or_default();
     let fields = value.as_object().into_iter().flatten();
     fields

@@ -40,6 +40,12 @@ pub fn resolved_text(language: &Language, file: &str, checked: &CheckedGearbox) 
             text.push_str(&format!("#   {figure}\n"));
         }
     }
+    for stage in transmission.crossed_stages() {
+        text.push_str(&format!("# {}:\n", stage.mesh));
+        for figure in stage_lines(&stage) {
+            text.push_str(&format!("#   {figure}\n"));
+        }
+    }
     Ok(text)
 }
 

@@ -27,7 +27,7 @@ pub fn undescribed_stage(word: &str) -> Option<&'static str> {
 }
 
 /// The stage with a section of its own that a word of a description means, and that section.
-fn stage_with_section(word: &str) -> Option<(&'static str, &'static str)> {
+pub fn stage_with_section(word: &str) -> Option<(&'static str, &'static str)> {
     let meant = SECTIONS.iter().find(|(words, ..)| means(word, words));
     meant.map(|(_, name, section)| (*name, *section))
 }

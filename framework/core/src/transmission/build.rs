@@ -133,6 +133,7 @@ impl Transmission {
             thermal_mode: entry.thermal.mode,
             rating: entry.rating,
             members: frame.members.names,
+            axes: frame.members.frames,
             ports: frame.ports,
             wheels: frame.wheels,
             states,

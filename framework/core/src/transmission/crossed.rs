@@ -5,12 +5,15 @@
 //! forces are vectors per newton of the tangential force of the first gear, one set for each sense.
 
 use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::axis::Axis;
 use crate::geometry::crossed::{Blank, Flank, MeanPoint, PitchCones, ToothPath, VirtualPair};
 
 /// Kind of a pair on axes that cross.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum CrossedKind {
     /// Bevel gears; hypoid gears if the axes do not intersect.
     Bevel,

@@ -283,10 +283,11 @@ impl<'a> NotCounted<'a> {
     /// What is in the way of a pair, and what would remove it.
     fn words(&self, number: usize, members: &Members) -> (String, String) {
         let opposite = self.supports[number].place.axial.opposite();
+        let [forwards, back] = members.frames[self.carried[number]].senses();
         let (side, key) = if opposite == Axial::Left {
-            ("-x", "left")
+            (back, "left")
         } else {
-            ("+x", "right")
+            (forwards, "right")
         };
         match self.obstacle(number) {
             Obstacle::NoOpponent => (

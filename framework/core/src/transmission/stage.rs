@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{Case, Transmission};
+use super::{Case, CrossedKind, Transmission};
 
 /// Derived geometry of one mesh; values of two gears in the order of `gears`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -58,7 +58,83 @@ pub struct Stage {
     pub specific_sliding: Option<[f64; 2]>,
 }
 
+/// Derived geometry of one mesh of gears on axes that cross; values of two gears in the order of `gears`.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct CrossedStage {
+    /// Path of the mesh.
+    pub mesh: String,
+    /// Kind of the pair.
+    pub kind: CrossedKind,
+    /// Ids of both gears.
+    pub gears: [String; 2],
+    /// Numbers of teeth, of a worm that of its threads. [-]
+    pub z: [u32; 2],
+    /// Number of teeth of the second gear over that of the first. [-]
+    pub ratio: f64,
+    /// Shaft angle, between the axes from apex to base. [deg]
+    pub shaft_angle_deg: f64,
+    /// Distance of the axes. [mm]
+    pub offset_mm: f64,
+    /// Pitch angles; zero of a worm and of cylindrical gears. [deg]
+    pub pitch_angle_deg: [f64; 2],
+    /// Mean spiral angles; helix angles of a worm and of cylindrical gears, the second one of a pair with equal hands negative. [deg]
+    pub spiral_angle_deg: [f64; 2],
+    /// Mean normal module m_mn. [mm]
+    pub mean_normal_module_mm: f64,
+    /// Mean pitch diameters d_m. [mm]
+    pub mean_diameter_mm: [f64; 2],
+    /// Mean cone distances R_m; null without cones. [mm]
+    pub mean_cone_distance_mm: Option<[f64; 2]>,
+    /// Outer pitch diameters d_e; null without cones. [mm]
+    pub outer_diameter_mm: Option<[f64; 2]>,
+    /// Tip diameters, of bevel gears outer ones d_ae. [mm]
+    pub tip_diameter_mm: [f64; 2],
+    /// Normal pressure angles of the drive and of the coast flank. [deg]
+    pub pressure_angle_deg: [f64; 2],
+    /// Limit pressure angle; zero without offset. [deg]
+    pub limit_pressure_angle_deg: f64,
+    /// Positions of the mean point along both shafts. [mm]
+    pub at_mm: [f64; 2],
+    /// Distances of the mean point from the crossing point or the common perpendicular of the axes, along the axes towards the base. [mm]
+    pub mounting_distance_mm: [f64; 2],
+    /// Mean point: x, y, z. [mm]
+    pub mean_point_mm: [f64; 3],
+}
+
 impl Transmission {
+    /// Derived geometry of all meshes of gears on axes that cross, in the order of the document.
+    pub fn crossed_stages(&self) -> impl Iterator<Item = CrossedStage> {
+        self.meshes.iter().filter_map(|mesh| {
+            let teeth = mesh.seat.crossed()?;
+            let cones = &teeth.cones;
+            let gears = mesh.seat.gears.map(|g| &self.gears[g]);
+            let mm = |lengths: [f64; 2]| lengths.map(|length| length * 1e3);
+            let deg = |angles: [f64; 2]| angles.map(f64::to_degrees);
+            let is_bevel = teeth.kind == CrossedKind::Bevel;
+            Some(CrossedStage {
+                mesh: mesh.seat.path.clone(),
+                kind: teeth.kind,
+                gears: gears.map(|gear| gear.id.clone()),
+                z: cones.z,
+                ratio: cones.ratio(),
+                shaft_angle_deg: cones.shaft_angle.to_degrees(),
+                offset_mm: cones.offset.abs() * 1e3,
+                pitch_angle_deg: deg(cones.pitch_angle),
+                spiral_angle_deg: deg(cones.spiral_angle),
+                mean_normal_module_mm: cones.normal_module() * 1e3,
+                mean_diameter_mm: mm(cones.radius.map(|radius| 2.0 * radius)),
+                mean_cone_distance_mm: is_bevel.then(|| mm(cones.cone_distance())),
+                outer_diameter_mm: is_bevel.then(|| mm(gears.map(|gear| gear.diameters[0]))),
+                tip_diameter_mm: mm(gears.map(|gear| gear.diameters[1])),
+                pressure_angle_deg: deg(teeth.pressure_angle),
+                limit_pressure_angle_deg: cones.limit_pressure_angle().to_degrees(),
+                at_mm: mm(gears.map(|gear| gear.at)),
+                mounting_distance_mm: mm(teeth.mounting_distance()),
+                mean_point_mm: (teeth.mean_point * 1e3).into(),
+            })
+        })
+    }
+
     /// Derived geometry of all meshes of cylindrical gears, in the order of the document.
     pub fn stages(&self) -> impl Iterator<Item = Stage> {
         self.meshes.iter().filter_map(|mesh| {

@@ -147,8 +147,8 @@ pub fn check_stages(source: &Source<'_>) {
         source.error(
             stage,
             codes::REXS_PART,
-            &format!("{what} are not described yet"),
-            "gearbox files describe spur and helical gears on parallel shafts; export a model of these stages alone",
+            &format!("{what} are not imported yet"),
+            "import a model of the other stages alone, and add the pair in `bevel_meshes` or `worm_meshes`",
         );
     }
 }

@@ -73,7 +73,7 @@ pub fn check_axes(map: &Map<'_>) {
                 shaft,
                 codes::REXS_PART,
                 "its axis is not parallel to that of the first shaft",
-                "gearbox files describe parallel shafts; import the parallel part of the model",
+                "only parallel shafts are imported: import the parallel part of the model, and add the others with `axis: { through, direction }`",
             ),
             Some(_) => {}
         }

@@ -42,7 +42,9 @@ pub fn gearbox_page(cx: &Planner<'_>, name: &str, gearbox: &Gearbox) -> Result<G
         .unwrap_or_default();
     let built = cx.built(gearbox, &sets)?;
     let point = point::page(cx, &built, &assumed);
-    let mut tables = vec![gears(transmission), meshes(transmission), states(transmission)];
+    let mut tables = vec![gears(transmission), meshes(transmission)];
+    tables.extend(crossed_meshes(transmission));
+    tables.push(states(transmission));
     tables.extend(changed(described.iter().chain(&built).map(|b| &**b)));
     Ok(GearboxPage {
         name: name.to_owned(),
@@ -122,6 +124,39 @@ fn gears(t: &Transmission) -> PageTable {
         &["gear", "on", "z", "kind", "b mm", "d mm", "d_a mm", "d_f mm"],
         rows,
     )
+}
+
+/// Meshes of gears on axes that cross; absent if there are none.
+fn crossed_meshes(t: &Transmission) -> Option<PageTable> {
+    let both = |values: [f64; 2]| format!("{:.3} / {:.3}", values[0], values[1]);
+    let rows: Vec<Vec<String>> = t
+        .crossed_stages()
+        .map(|stage| {
+            vec![
+                stage.mesh.split_once('.').map_or("", |(_, id)| id).to_owned(),
+                format!("{}/{}", stage.z[0], stage.z[1]),
+                format!("{:.3}", stage.shaft_angle_deg),
+                format!("{:.3}", stage.offset_mm),
+                both(stage.pitch_angle_deg),
+                both(stage.spiral_angle_deg.map(f64::abs)),
+                format!("{:.4}", stage.mean_normal_module_mm),
+                both(stage.mean_diameter_mm),
+                both(stage.at_mm),
+            ]
+        })
+        .collect();
+    let head = [
+        "mesh",
+        "z",
+        "Σ deg",
+        "a mm",
+        "δ deg",
+        "β_m deg",
+        "m_mn mm",
+        "d_m mm",
+        "mean point at mm",
+    ];
+    (!rows.is_empty()).then(|| table("Meshes on axes that cross", &head, rows))
 }
 
 fn meshes(t: &Transmission) -> PageTable {

@@ -80,6 +80,12 @@ pub fn explain_part(
             out.line(format!("    {figure}"));
         }
     }
+    if let Some(stage) = transmission.crossed_stages().find(|stage| stage.mesh == info.path) {
+        out.line("  geometry:");
+        for figure in stage_lines(&stage) {
+            out.line(format!("    {figure}"));
+        }
+    }
     let base = info.path.as_str();
     for changed in changed.iter().filter_map(|changed| changed.below(base)) {
         out.line(format!("  note: {changed}"));

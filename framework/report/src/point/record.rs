@@ -8,7 +8,7 @@ use gearloss_framework::language::Language;
 use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::registry::Package;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::transmission::{PartInfo, Port, Stage, Transmission};
+use gearloss_framework::transmission::{PartInfo, Port, CrossedStage, Stage, Transmission};
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::{RPM, tidy};
 use gearloss_studies::pairs::{PreloadRecord, preload_records};
@@ -57,6 +57,9 @@ pub struct PointRecord {
     members: Vec<MemberRecord>,
     /// Derived geometry of every mesh.
     stages: Vec<Stage>,
+    /// Geometry of every mesh of gears on axes that cross; absent without such meshes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    crossed_stages: Vec<CrossedStage>,
     /// Loads of all supports.
     supports: Vec<SupportRecord>,
     /// Preloads of pairs of bearings; absent without any.
@@ -248,6 +251,7 @@ impl PointRecord {
             ports: ports.map(|(i, port)| PortRecord::new(solution, i, port)).collect(),
             members: transmission.members().iter().enumerate().map(member).collect(),
             stages: transmission.stages().collect(),
+            crossed_stages: transmission.crossed_stages().collect(),
             supports: supports
                 .map(|(i, path)| SupportRecord::new(solution, i, path))
                 .collect(),
