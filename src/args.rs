@@ -184,13 +184,11 @@ pub struct NewGearboxArgs {
     pub output: PathBuf,
 }
 
-/// Layouts that are asked for and do not exist.
-const UNDESCRIBED: [&str; 9] = [
+/// Layouts that are asked for and cannot be described yet.
+const UNDESCRIBED: [&str; 7] = [
     "worm",
     "bevel",
     "hypoid",
-    "chain",
-    "belt",
     "cycloidal",
     "strain-wave",
     "bevel-helical",

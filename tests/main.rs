@@ -21,6 +21,7 @@ mod cycle;
 mod dependencies;
 mod derivatives;
 mod distributed;
+mod drivetrain;
 mod editor;
 mod ehl_mixed;
 mod electric_drive_unit;

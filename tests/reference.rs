@@ -26,7 +26,9 @@ const OMITTED: &str = "\
 - Drag of bearings above n d_m = 0.5e6 mm/min according to Morales-Espejel and Wemekamp: not public. `beyond: hold` is a convention.
 - Raceway torques of tapered roller bearings according to Aihara, Zhou and Hoeprich, Matsuyama, Houpert: they require the internal geometry.
 - Dawson's update of 1988 requires a chart that is not public. SKF diagrams of shaft seals and Engelke's model: no closed form.
-- Torque converters, belts, leakage of hydraulic actuation: outside the scope of the program; `table` accepts a measured map.
+- Rocker pins of silent chains, hysteresis of toothed belts, push belts, constant-velocity joints: no open law. `typical` has handbook values of
+  chains and belts; `efficiency` and `table` accept those of the maker, also over ratio and angle.
+- Torque converters, leakage of hydraulic actuation: outside the scope of the program; `table` accepts a measured map.
 ";
 
 fn head_of(entry: &Entry) -> String {

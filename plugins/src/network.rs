@@ -116,10 +116,7 @@ fn generate(entry: &GearboxEntry, value: &Value) -> Result<Value, Diagnostic> {
         let id = path.split_once('.').map_or("", |(_, id)| id);
         let [first, second] = gears.each_ref().map(|gear| builder.of_gear(gear));
         if let (Some(first), Some(second)) = (first, second) {
-            let copies = gears
-                .iter()
-                .map(|gear| bodies.copies_of_gear(gear))
-                .fold(1.0, f64::max);
+            let copies = gears.iter().map(|gear| bodies.copies_of_gear(gear)).fold(1.0, f64::max);
             builder.link(id, &first, &second, copies * TEETH);
         }
     }

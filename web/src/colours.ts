@@ -24,6 +24,9 @@ export const MECHANISMS: Record<string, string> = {
   clutch: PALETTE[5],
   synchronizer: "#5d55c8",
   auxiliary: PALETTE[7],
+  chain: PALETTE[10],
+  differential: PALETTE[11],
+  joint: PALETTE[17],
   others: "#a9b0b8",
 };
 
@@ -37,6 +40,9 @@ const SECTIONS: Record<string, string> = {
   clutches: "clutch",
   couplings: "synchronizer",
   auxiliaries: "auxiliary",
+  chains: "chain",
+  differentials: "differential",
+  joints: "joint",
 };
 
 /** Shares of a loss that are the loss of a mechanism, or a part of it. */

@@ -74,6 +74,15 @@ gearloss_document::codes! {
     CROSSED = "E0321", "impossible pair of gears on axes that cross",
         cause: "The data of a bevel, hypoid, worm or crossed helical pair contradict each other or its axes, or a key does not apply to such gears.",
         help: "Correct the value that the message names; shaft angle, offset and positions follow from the axes.";
+    CHAIN = "E0332", "invalid chain or belt",
+        cause: "The wheels of a chain are not on two parallel shafts in one plane, its links do not fit the centre distance, or it lacks teeth, pitch or ratio.",
+        help: "Correct the axes, `at`, the numbers of teeth, `pitch` and `links`, or the `ratio` of a belt.";
+    DIFFERENTIAL = "E0333", "contradictory speeds of a differential",
+        cause: "The speeds of both sides of a differential, or of the ports of `wheels`, are stated twice, or their number is wrong.",
+        help: "State them once: `wheel_speeds` for ports of `wheels`, `speed_difference` otherwise.";
+    JOINT = "E0334", "invalid joint",
+        cause: "A joint names the same shaft on both sides.",
+        help: "Name the shafts on both sides of the joint.";
     THERMAL = "E0401", "invalid thermal description",
         cause: "The balance has no heat path, or values of the thermal section contradict each other.",
         help: "Correct the section `thermal`.";
@@ -127,4 +136,7 @@ gearloss_document::codes! {
         cause: "With this hand and offset of a hypoid pair the spiral angle of the pinion is smaller than that of the wheel, which is legal but rare: the \
                 pinion becomes smaller.",
         help: "Check `hand` and the axes; if they are intended, no change is needed.";
+    CHAIN_DOUBTFUL = "W0332", "doubtful chain or belt",
+        cause: "The slack strand of a chain sags more than usual, or the forces of a belt on its shafts are not known.",
+        help: "Correct the number of links, or state the forces under `loads` of the shafts.";
 }

@@ -3,6 +3,7 @@
 //! The registry adds the sections of mechanisms (`bearings`, `couplings`, `seals`, ... and those of other crates). All structs are
 //! read from the resolved document, in which every quantity is SI and every default is filled in.
 
+pub mod chains;
 pub mod crossed;
 pub mod gears;
 pub mod housing;
@@ -18,10 +19,12 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-pub use gearloss_document::Ordered;
+pub use chains::{ChainEntry, JointEntry};
 pub use crossed::{
-    BevelMeshEntry, CalculationPoint, CrossedHelicalMeshEntry, CutterEntry, CuttingMethod, DepthEntry, FlankAngles, SpiralAngleOf, WormMeshEntry,
+    BevelMeshEntry, CalculationPoint, CrossedHelicalMeshEntry, CutterEntry, CuttingMethod, DepthEntry, FlankAngles,
+    SpiralAngleOf, WormMeshEntry,
 };
+pub use gearloss_document::Ordered;
 pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
 pub use housing::{
     HeatInto, HousingEntry, InsideEntry, InsideSection, LevelOver, OilEntry, OutsideEntry, Running, RunningWord,
@@ -59,6 +62,10 @@ pub struct GearboxEntry {
     #[schemars(length(min = 2))]
     #[schemars(extend("x-refers-to" = "ports"))]
     pub wheels: Option<Vec<String>>,
+    /// Speeds of the ports of `wheels` over their common speed, in the same order, as in a corner: `[1.06, 0.94]`. The torque of the
+    /// common port then has their power at the common speed. Default: all one, a straight road. [-]
+    #[schemars(inner(range(min = 0.0, max = 2.0)), length(min = 2))]
+    pub wheel_speeds: Option<Vec<f64>>,
     /// Shafts, planet bodies and carriers: all rotating members except idler gears.
     pub shafts: Ordered<ShaftEntry>,
     /// Gears.
@@ -82,6 +89,12 @@ pub struct GearboxEntry {
     /// Differentials.
     #[serde(default)]
     pub differentials: Ordered<DifferentialEntry>,
+    /// Chains and belts.
+    #[serde(default)]
+    pub chains: Ordered<ChainEntry>,
+    /// Joints between shafts at an angle, such as cardan and constant-velocity joints.
+    #[serde(default)]
+    pub joints: Ordered<JointEntry>,
     /// Relative speed, as a fraction of the common speed of the bodies, below which friction decreases linearly to zero: for gears
     /// and bearings on a carrier whose planets hardly roll, as in a differential on a straight road. Irregularities of real drives
     /// reverse the sign of such friction all the time. Zero: full friction at any relative speed. [-]
@@ -182,6 +195,9 @@ impl GearboxEntry {
             "worm_meshes" => entry_again(&mut self.worm_meshes, section_value, id),
             "crossed_helical_meshes" => entry_again(&mut self.crossed_helical_meshes, section_value, id),
             "planetary_sets" => entry_again(&mut self.planetary_sets, section_value, id),
+            "differentials" => entry_again(&mut self.differentials, section_value, id),
+            "chains" => entry_again(&mut self.chains, section_value, id),
+            "joints" => entry_again(&mut self.joints, section_value, id),
             "lubricants" => entry_again(&mut self.lubricants, section_value, id),
             "housing" => {
                 self.housing = HousingEntry::deserialize(section_value)?;

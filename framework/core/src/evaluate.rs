@@ -10,6 +10,7 @@ mod readings;
 mod scratch;
 mod snapshot;
 mod solution;
+mod transfers;
 
 pub use batch::{Batch, BatchScratch, Block};
 pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
@@ -335,7 +336,10 @@ impl Transmission {
                     m.component_losses[i] = loss;
                 }
                 for &i in &flow.laws.meshes {
-                    let mesh = &self.meshes[i];
+                    let Some(mesh) = self.meshes.get(i) else {
+                        self.lose_at_transfer(case, i - self.meshes.len(), flow, m, notes);
+                        continue;
+                    };
                     if mesh.law.off() {
                         continue;
                     }
@@ -357,11 +361,11 @@ impl Transmission {
         );
     }
 
-    /// Tangential forces of all meshes. Meshes are the first rows, in the same order.
+    /// Tangential forces of all meshes and chains. They are the first rows, in the same order.
     #[inline(always)]
     fn forces<R: Points>(&self, multipliers: &[R], m: &mut Models<R>) {
-        for ((mesh, force), multiplier) in self.meshes.iter().zip(&mut m.forces).zip(multipliers) {
-            *force = *multiplier * mesh.force_per_multiplier;
+        for ((factor, force), multiplier) in self.force_factors().zip(&mut m.forces).zip(multipliers) {
+            *force = *multiplier * factor;
         }
     }
 
@@ -392,8 +396,9 @@ impl Transmission {
         self.correct_loads(case, group, ports, &mut c.loads);
         if self.uneven {
             for (which, loads) in m.uneven_loads.iter_mut().enumerate() {
-                for ((force, mean), mesh) in m.uneven_forces.iter_mut().zip(&m.forces).zip(&self.meshes) {
-                    *force = *mean * mesh.sharing.map_or(1.0, |s| s.factors()[which]);
+                for (i, (force, mean)) in m.uneven_forces.iter_mut().zip(&m.forces).enumerate() {
+                    let sharing = self.meshes.get(i).and_then(|mesh| mesh.sharing);
+                    *force = *mean * sharing.map_or(1.0, |s| s.factors()[which]);
                 }
                 let teeth = ToothForces {
                     tangential: &m.uneven_forces,
@@ -512,8 +517,10 @@ impl Transmission {
             #[inline(always)]
             || {
                 self.forces(&s.work.multipliers, m);
-                for i in (0..self.meshes.len()).filter(|i| self.meshes[*i].law.off()) {
-                    m.tangential[i] = m.forces[i];
+                for i in 0..m.forces.len() {
+                    if self.meshes.get(i).is_none_or(|mesh| mesh.law.off()) {
+                        m.tangential[i] = m.forces[i];
+                    }
                 }
                 for i in 0..m.friction.len() {
                     // That of the losses of the flow.

@@ -35,10 +35,10 @@ impl Row {
         }
     }
 
-    /// A column that is the difference of two others.
-    pub fn difference(left: usize, right: usize, difference: usize) -> Self {
+    /// A column that is the difference of two others, each with a factor.
+    pub fn difference(left: (usize, f64), right: (usize, f64), difference: usize) -> Self {
         Self {
-            terms: vec![(left, 1.0), (right, -1.0), (difference, -1.0)],
+            terms: vec![left, (right.0, -right.1), (difference, -1.0)],
         }
     }
 

@@ -18,9 +18,12 @@ use crate::document::{
     Diagnostic, Node, Places, Schema, Shape, Unit, Walked, classify, read_yaml, walk, walk_at, walk_shape,
 };
 use crate::mechanism::Mechanism;
+use crate::mechanism::chain::Chain;
+use crate::mechanism::differential::Differential;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::heat_dissipation::HeatDissipation;
+use crate::mechanism::joint::Joint;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::registry::{DocumentKind, Entry, Files, RatingPlugin, Registry, inventory};
 use crate::resolve::{CatalogueTable, Fault, LinkedCatalogue, RATINGS};
@@ -29,8 +32,16 @@ use crate::resolve::{CatalogueTable, Fault, LinkedCatalogue, RATINGS};
 pub(crate) const MESHES: &str = GearMesh::KEY;
 /// Key of the mechanism of planetary set models.
 pub const SETS: &str = PlanetaryDrag::KEY;
+/// Section of differentials, which need no model.
+pub(crate) const DIFFERENTIALS: &str = "differentials";
 /// Mechanisms whose models are in sections of the framework itself: section and key.
-pub const HELD: [(&str, &str); 2] = [("meshes", MESHES), ("planetary_sets", SETS)];
+pub const HELD: [(&str, &str); 5] = [
+    ("meshes", MESHES),
+    ("planetary_sets", SETS),
+    ("chains", Chain::KEY),
+    ("joints", Joint::KEY),
+    (DIFFERENTIALS, Differential::KEY),
+];
 /// Key of the mechanism of named gear and mesh drag models.
 pub const DRAGS: &str = GearDrag::KEY;
 

@@ -18,7 +18,9 @@ mod thrust;
 
 pub use carries::{Carries, Thrust};
 pub use induced::{Induced, InducedBasis, InducedThrust};
-pub use layout::{CrossedMesh, CylindricalMesh, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout};
+pub use layout::{
+    CrossedMesh, CylindricalMesh, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout,
+};
 pub use pair::{Pair, PairLoads, PairSpring, PairedSupport};
 pub use shaft_loads::{Group, ShaftLoads, ToothForces};
 pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};

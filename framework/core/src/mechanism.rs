@@ -6,12 +6,15 @@
 mod answers;
 pub mod auxiliary;
 pub mod bearing;
+pub mod chain;
 pub mod clutch;
 pub(crate) mod differences;
+pub mod differential;
 pub mod gear_drag;
 pub mod gear_mesh;
 pub mod heat_dissipation;
 pub mod heat_link;
+pub mod joint;
 mod law;
 pub mod mean_friction;
 pub mod planetary_drag;

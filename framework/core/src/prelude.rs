@@ -12,13 +12,18 @@ pub use crate::mechanism::auxiliary::{Auxiliary, AuxiliaryAt, AuxiliaryModel};
 pub use crate::mechanism::bearing::{
     Bearing, BearingAt, BearingKind, BearingLaw, BearingModel, BearingPart, Lubrication,
 };
+pub use crate::mechanism::chain::{Chain, ChainAt, ChainKind, ChainLaw, ChainModel, ChainPart};
 pub use crate::mechanism::clutch::{Clutch, ClutchAt, ClutchModel, ClutchPart};
+pub use crate::mechanism::differential::{
+    Differential, DifferentialAt, DifferentialGears, DifferentialLaw, DifferentialModel, DifferentialPart,
+};
 pub use crate::mechanism::gear_drag::{Covers, DragPart, GearBody, GearDrag, GearDragAt, GearDragModel, Scope};
 pub use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw, GearMeshModel, MeshPart};
 pub use crate::mechanism::heat_dissipation::{
     HeatDissipation, HeatDissipationAt, HeatDissipationModel, HousingPart, WarmSide,
 };
 pub use crate::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel, HeatLinkPart};
+pub use crate::mechanism::joint::{Joint, JointAt, JointKind, JointLaw, JointModel, JointPart};
 pub use crate::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw, MeanFrictionModel};
 pub use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryDragModel, PlanetaryPart};
 pub use crate::mechanism::seal::{Seal, SealAt, SealKind, SealMaterial, SealModel, SealPart};

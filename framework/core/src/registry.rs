@@ -24,6 +24,7 @@ pub use compared::{Compared, ComparedSet, ShippedCells, kind_of};
 pub use evaluated::Evaluated;
 pub(crate) use memory::Memory;
 pub(crate) use placed::BuiltRating;
+pub(crate) use placed::place_between;
 pub(crate) use placed::sealed::Sealed;
 pub use placed::{Placed, Section};
 pub use rating::{RatedAlone, RatingPlugin};

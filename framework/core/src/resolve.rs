@@ -33,7 +33,7 @@ pub(crate) use paths::lookup_mut;
 
 use crate::codes;
 use crate::document::{Diagnostic, did_you_mean};
-use crate::language::{DRAGS, HEAT, Language};
+use crate::language::{DIFFERENTIALS, DRAGS, HEAT, Language};
 use crate::registry::Files;
 
 /// Origin of a value of the resolved document.
@@ -332,6 +332,8 @@ impl<'a> Giving<'a> {
             if let Some((name, model)) = self.named(&path) {
                 entry.insert("model".to_owned(), model.clone());
                 self.sources.insert(path, ValueSource::Set(name.clone()));
+            } else if absent(entry, "model") && default.is_none() && section == DIFFERENTIALS {
+                // A differential without a model has gears without friction; that is no omission.
             } else if absent(entry, "model") {
                 taken += 1;
                 if default.is_none() {

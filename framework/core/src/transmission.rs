@@ -22,8 +22,10 @@ mod seats;
 mod stage;
 mod states;
 mod statics;
+mod strands;
 mod sump;
 mod torque_order;
+mod transfers;
 
 use std::sync::Arc;
 
@@ -38,7 +40,7 @@ pub use pairs::{BearingPair, PairedBearing};
 pub use preloads::{BodyTemperature, PairPreload, PreloadBy};
 pub use seats::GearSeat;
 pub(crate) use seats::MeshSeat;
-pub use stage::{CrossedStage, Stage};
+pub use stage::{ChainStage, CrossedStage, Stage};
 pub use states::GearState;
 pub use sump::Sump;
 pub use torque_order::{TorqueBlock, TorqueOrder};
@@ -48,6 +50,7 @@ pub(crate) use states::RowName;
 
 pub(crate) use nodes::NodeNames;
 pub(crate) use planets::Sharing;
+pub(crate) use transfers::{Transfer, TransferLaw};
 
 use crate::description::{RatingEntry, ThermalMode};
 use crate::document::Diagnostic;
@@ -70,6 +73,8 @@ pub enum PartKind {
     Mesh(usize),
     /// A drag model on a gear or on a mesh; its number.
     Drag(usize),
+    /// A chain, a joint or a differential with friction; its number.
+    Transfer(usize),
 }
 
 /// One part with a power loss.
@@ -91,6 +96,8 @@ pub struct PartInfo {
 
 /// Name of the port that combines the ports of `wheels`.
 pub const WHEELS: &str = "wheels";
+/// Key of the speeds of the ports of `wheels`.
+pub const WHEEL_SPEEDS: &str = "wheel_speeds";
 
 /// A port.
 #[derive(Debug, Clone, PartialEq)]
@@ -121,10 +128,7 @@ pub(crate) struct MeshModel {
 /// The loss of a mesh, by the mechanism of its kind of teeth.
 pub(crate) enum MeshLaw {
     /// Cylindrical gears.
-    Cylindrical {
-        part: Arc<MeshPart>,
-        model: Slot<GearMesh>,
-    },
+    Cylindrical { part: Arc<MeshPart>, model: Slot<GearMesh> },
     /// No loss.
     Lossless,
 }
@@ -235,6 +239,8 @@ pub struct Transmission {
     pub(crate) gears: Vec<GearSeat>,
     pub(crate) meshes: Vec<MeshModel>,
     pub(crate) drags: Vec<DragModel>,
+    /// Rows with friction that are no gear meshes: those with strands first.
+    pub(crate) transfers: Vec<Transfer>,
     pub(crate) components: Vec<Component>,
     pub(crate) parts: Vec<PartInfo>,
     pub(crate) instances: Vec<Instance>,
@@ -307,6 +313,17 @@ impl Transmission {
     /// Gears with their geometry.
     pub fn gears(&self) -> &[GearSeat] {
         &self.gears
+    }
+    /// The kind of a row with friction by its number in the power flow: gear meshes first.
+    pub(crate) fn kind_of_row(&self, number: usize) -> PartKind {
+        let transfer = number.checked_sub(self.meshes.len());
+        transfer.map_or(PartKind::Mesh(number), PartKind::Transfer)
+    }
+    /// Tangential force per multiplier of each row that loads bearings: those of meshes, then those of chains. \[1/m\]
+    pub(crate) fn force_factors(&self) -> impl Iterator<Item = f64> {
+        let meshes = self.meshes.iter().map(|mesh| mesh.force_per_multiplier);
+        let chains = self.transfers.iter().filter(|transfer| transfer.seat.strands.is_some());
+        meshes.chain(chains.map(|chain| chain.force_per_multiplier))
     }
     /// Every part that may lose power, in the order of the document.
     pub fn parts(&self) -> &[PartInfo] {

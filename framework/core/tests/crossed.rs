@@ -201,29 +201,63 @@ proptest! {
 fn what_does_not_fit_is_said_with_both_numbers() {
     let with = |from: &str, to: &str| findings(&BEVEL.replace(from, to));
     for (from, to, expected) in [
-        ("35 deg\n", "35 deg\n    shaft_angle: 89 deg\n", "89.0000 deg, but 90.0000 deg follows"),
-        ("35 deg\n", "35 deg\n    offset: 1 mm\n", "1.0000 mm, but 0.0000 mm follows"),
-        ("35 deg\n", "35 deg\n    mounting_distance: [76.493 mm, 28 mm]\n", "28.0000 mm, but 27.4591 mm follows"),
-        ("35 deg\n", "35 deg\n    cutter: { radius: 114.3 mm }\n", "the axes intersect"),
-        ("35 deg\n", "35 deg\n    outer_module: 4.5 mm\n", "the size of the wheel is stated not once"),
+        (
+            "35 deg\n",
+            "35 deg\n    shaft_angle: 89 deg\n",
+            "89.0000 deg, but 90.0000 deg follows",
+        ),
+        (
+            "35 deg\n",
+            "35 deg\n    offset: 1 mm\n",
+            "1.0000 mm, but 0.0000 mm follows",
+        ),
+        (
+            "35 deg\n",
+            "35 deg\n    mounting_distance: [76.493 mm, 28 mm]\n",
+            "28.0000 mm, but 27.4591 mm follows",
+        ),
+        (
+            "35 deg\n",
+            "35 deg\n    cutter: { radius: 114.3 mm }\n",
+            "the axes intersect",
+        ),
+        (
+            "35 deg\n",
+            "35 deg\n    outer_module: 4.5 mm\n",
+            "the size of the wheel is stated not once",
+        ),
         ("z: 14", "z: 14, at: 70 mm", "70.0000 mm, but 76.4933 mm follows"),
         ("z: 14", "z: 14, profile_shift: 0.1", "`profile_shift` does not apply"),
         ("z: 14", "z: 3", "a bevel gear has at least 5"),
         (", hand: left", "", "`hand` is missing"),
-        ("z: 39", "z: 39, hand: left", "the hands of `pinion` and `wheel` do not match"),
+        (
+            "z: 39",
+            "z: 39, hand: left",
+            "the hands of `pinion` and `wheel` do not match",
+        ),
         ("[0, 1, 0]", "[2, 0, 0]", "the axes are parallel"),
         ("[0, 1, 0]", "[0, 0, 0]", "the direction has no length"),
-        ("bevel_meshes:\n  stage:\n    gears: [pinion, wheel]\n    outer_diameter: 176.893 mm\n    spiral_angle: 35 deg\n    depth: { wheel_addendum: 0.24737, addendum_angle: 2.1342 deg, dedendum_angle: 6.4934 deg }",
-         "meshes:\n  stage: { gears: [pinion, wheel], normal_module: 4 mm, helix_angle: 35 deg }", "the axes are not parallel"),
+        (
+            "bevel_meshes:\n  stage:\n    gears: [pinion, wheel]\n    outer_diameter: 176.893 mm\n    spiral_angle: 35 deg\n    depth: { wheel_addendum: 0.24737, addendum_angle: 2.1342 deg, dedendum_angle: 6.4934 deg }",
+            "meshes:\n  stage: { gears: [pinion, wheel], normal_module: 4 mm, helix_angle: 35 deg }",
+            "the axes are not parallel",
+        ),
     ] {
         let found = with(from, to);
         assert!(found.contains(expected), "{from} -> {to}: {found}");
     }
     let text = hypoid(&Rotation3::identity(), "left");
-    let unusual = findings(&text.replace("hand: left", "hand: right").replace("cutter: { radius: 63.5 mm }", "wheel_pitch_angle: 72 deg"));
+    let unusual = findings(
+        &text
+            .replace("hand: left", "hand: right")
+            .replace("cutter: { radius: 63.5 mm }", "wheel_pitch_angle: 72 deg"),
+    );
     assert!(unusual.contains("usually the pinion has the larger one"), "{unusual}");
     let unclosed = findings(&text.replace("cutter: { radius: 63.5 mm }", "calculation_point: mid_face"));
-    assert!(unclosed.contains("what determines the pitch cones is not stated once"), "{unclosed}");
+    assert!(
+        unclosed.contains("what determines the pitch cones is not stated once"),
+        "{unclosed}"
+    );
 }
 
 /// A worm above its wheel, and a crossed helical pair.
@@ -251,7 +285,10 @@ fn a_worm_pushes_along_its_axis_what_its_wheel_carries_around() {
     let t = built(WORM);
     let (speed, axial) = solved(&t, 20.0, 1500.0, |s| {
         let output = t.ports()[1].member;
-        (s.speed(output) / RPM, (0..4).map(|i| s.load(i).axial).collect::<Vec<_>>())
+        (
+            s.speed(output) / RPM,
+            (0..4).map(|i| s.load(i).axial).collect::<Vec<_>>(),
+        )
     });
     close(speed.abs(), 1500.0 * 2.0 / 41.0, 1e-9);
     // Thrust of one is the tangential force of the other: 20 N m at 18 mm, and that times the ratio at 82 mm.
@@ -277,10 +314,16 @@ fn a_worm_pushes_along_its_axis_what_its_wheel_carries_around() {
 #[test]
 fn crossed_helical_gears_need_the_angle_and_distance_of_their_teeth() {
     let text = WORM
-        .replace("z: 2, facewidth: 60 mm, hand: right", "z: 15, facewidth: 30 mm, hand: right")
+        .replace(
+            "z: 2, facewidth: 60 mm, hand: right",
+            "z: 15, facewidth: 30 mm, hand: right",
+        )
         .replace("z: 41, facewidth: 30 mm", "z: 30, facewidth: 30 mm, hand: right")
         .replace("worm_meshes", "crossed_helical_meshes")
-        .replace("module: 4 mm, diameter_factor: 9, profile_shift: 0", "normal_module: 3 mm, helix_angle: [45 deg, 45 deg]")
+        .replace(
+            "module: 4 mm, diameter_factor: 9, profile_shift: 0",
+            "normal_module: 3 mm, helix_angle: [45 deg, 45 deg]",
+        )
         .replace("100 mm], d", "95.459415460183916 mm], d");
     let t = built(&text);
     let speed = solved(&t, 20.0, 1500.0, |s| s.speed(t.ports()[1].member) / RPM);
@@ -327,12 +370,18 @@ lubricants: {{ oil: {{ viscosity: {{ kv40: 100 mm2/s, kv100: 11 mm2/s }} }} }}
         "{ through: [0 mm, 0 mm, 0 mm], direction: [0, 1, 0] }",
         "{ through: [-64 mm, 5 mm, 0 mm], direction: [0, 1, 0] }",
     ];
-    let shifted = text(turned).replace("shaft: b, at: 10 mm", "shaft: b, at: 5 mm").replace("shaft: b, at: -20 mm", "shaft: b, at: -25 mm").replace("shaft: b, at: 40 mm", "shaft: b, at: 35 mm");
+    let shifted = text(turned)
+        .replace("shaft: b, at: 10 mm", "shaft: b, at: 5 mm")
+        .replace("shaft: b, at: -20 mm", "shaft: b, at: -25 mm")
+        .replace("shaft: b, at: 40 mm", "shaft: b, at: 35 mm");
     for (turned, usual) in loads(&built(&shifted), 100.0, 1000.0).iter().zip(&usual) {
         for i in 0..2 {
             close(turned[i], usual[i], 1e-10 * 1e4);
         }
     }
-    let opposite = findings(&text([stated[0], "{ through: [0 mm, 64 mm, 0 mm], direction: [-1, 0, 0] }"]));
+    let opposite = findings(&text([
+        stated[0],
+        "{ through: [0 mm, 64 mm, 0 mm], direction: [-1, 0, 0] }",
+    ]));
     assert!(opposite.contains("their directions are opposite"), "{opposite}");
 }

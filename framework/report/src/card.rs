@@ -1,6 +1,6 @@
 //! Key data of a gearbox: its stages and teeth, its bearings and their pairs, the ratio of each gear, its oil.
 
-use gearloss_framework::transmission::{CrossedStage, Stage, Transmission};
+use gearloss_framework::transmission::{ChainStage, CrossedStage, Stage, Transmission};
 use gearloss_studies::bearings::{BearingCard, bearing_cards};
 use gearloss_studies::checked::CheckedGearbox;
 use gearloss_studies::pairs::pair_cards;
@@ -21,6 +21,10 @@ pub fn card(checked: &CheckedGearbox) -> String {
     let crossed: Vec<CrossedStage> = transmission.crossed_stages().collect();
     if !crossed.is_empty() {
         text.push_str(&crossed_table(&crossed));
+    }
+    let chains: Vec<ChainStage> = transmission.chain_stages().collect();
+    if !chains.is_empty() {
+        text.push_str(&chain_table(&chains));
     }
     let bearings = bearing_cards(checked);
     if !bearings.is_empty() {
@@ -126,6 +130,23 @@ fn stage_table(stages: &[Stage]) -> String {
             number(stage.transverse_contact_ratio, 4),
             number(Some(stage.overlap_contact_ratio), 4),
             format!("{} of {}", significant(stage.face_overlap_mm), significant(narrow)),
+        ]);
+    }
+    table.render()
+}
+
+/// Chains and belts, with the links that their wheels need.
+fn chain_table(chains: &[ChainStage]) -> String {
+    let mut table = TextTable::new(&["chain", "z", "ratio", "a mm", "wrap deg", "links needed", "links"]);
+    for chain in chains {
+        table.row(vec![
+            last_key(&chain.chain).to_owned(),
+            format!("{}/{}", chain.z[0], chain.z[1]),
+            number(Some(chain.ratio), 4),
+            number(Some(chain.centre_distance_mm), 3),
+            format!("{:.1} / {:.1}", chain.wrap_deg[0], chain.wrap_deg[1]),
+            number(Some(chain.links_needed), 3),
+            chain.links.map_or_else(|| "-".to_owned(), |links| links.to_string()),
         ]);
     }
     table.render()

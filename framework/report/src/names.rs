@@ -3,14 +3,21 @@
 use crate::text::last_key;
 
 /// A section of a gearbox: its key, one of its components, all of them.
-const SECTIONS: [[&str; 3]; 12] = [
+const SECTIONS: [[&str; 3]; 15] = [
     ["auxiliaries", "auxiliary", "auxiliaries"],
     ["bearings", "bearing", "bearings"],
     ["bevel_meshes", "bevel mesh", "bevel meshes"],
+    ["chains", "chain", "chains"],
     ["clutches", "clutch", "clutches"],
     ["couplings", "coupling", "couplings"],
-    ["crossed_helical_meshes", "crossed helical mesh", "crossed helical meshes"],
+    [
+        "crossed_helical_meshes",
+        "crossed helical mesh",
+        "crossed helical meshes",
+    ],
+    ["differentials", "differential", "differentials"],
     ["gears", "gear", "gears"],
+    ["joints", "joint", "joints"],
     ["meshes", "mesh", "meshes"],
     ["planetary_sets", "planetary set", "planetary sets"],
     ["seals", "seal", "seals"],
@@ -19,12 +26,15 @@ const SECTIONS: [[&str; 3]; 12] = [
 ];
 
 /// Mechanisms by their key.
-const MECHANISMS: [[&str; 2]; 8] = [
+const MECHANISMS: [[&str; 2]; 11] = [
     ["auxiliary", "auxiliaries"],
     ["bearing", "bearings"],
+    ["chain", "chains and belts"],
     ["clutch", "clutches"],
+    ["differential", "differentials"],
     ["gear_drag", "gear drag"],
     ["gear_mesh", "gear meshes"],
+    ["joint", "joints"],
     ["planetary_drag", "planetary drag"],
     ["seal", "seals"],
     ["synchronizer", "synchronizers"],

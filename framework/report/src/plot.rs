@@ -26,7 +26,7 @@ pub(super) const COLOURS: [RGBColor; 8] = [
 ];
 
 /// Colours of the mechanisms, which are those of the report.
-const MECHANISMS: [(&str, RGBColor); 9] = [
+const MECHANISMS: [(&str, RGBColor); 12] = [
     ("gear_mesh", RGBColor(0x1f, 0x77, 0xb4)),
     ("bearing", RGBColor(0xe6, 0x9f, 0x00)),
     ("gear_drag", RGBColor(0x12, 0xb4, 0x88)),
@@ -35,6 +35,9 @@ const MECHANISMS: [(&str, RGBColor); 9] = [
     ("clutch", RGBColor(0xd7, 0x68, 0x21)),
     ("synchronizer", RGBColor(0x5d, 0x55, 0xc8)),
     ("auxiliary", RGBColor(0xc1, 0xdd, 0x59)),
+    ("chain", RGBColor(0x6f, 0x52, 0x1c)),
+    ("differential", RGBColor(0xf1, 0x79, 0xb2)),
+    ("joint", RGBColor(0x56, 0xa5, 0x9b)),
     ("others", RGBColor(0xa9, 0xb0, 0xb8)),
 ];
 
@@ -51,6 +54,9 @@ const SECTIONS: [(&str, &str); 11] = [
     ("clutches", "clutch"),
     ("couplings", "synchronizer"),
     ("auxiliaries", "auxiliary"),
+    ("chains", "chain"),
+    ("differentials", "differential"),
+    ("joints", "joint"),
 ];
 
 /// Shares of black (negative) or white in the shades of several components with one mechanism.

@@ -27,7 +27,8 @@ const HEIGHT: f64 = 420.0;
 /// The x axis is the position along the shafts. Gears have their true face width and tip diameter, all to one scale, which a bar shows in
 /// mm; bearings have their true width. The axes are unfolded into one plane: first the axis of the reference port, then each further axis
 /// at the sum of the tip radii from the axis that it meshes with; coaxial shafts are on one line. A planetary set shows one planet, between
-/// its sun and the upper half of its ring. A dotted line connects meshing gears that cannot touch in one plane. Seals, couplings and
+/// its sun and the upper half of its ring. A chain is drawn with its two wheels; its strands connect the lines of their axes, which are not at
+/// the centre distance. A dotted line connects meshing gears that cannot touch in one plane. Seals, couplings and
 /// auxiliaries without `at` have the position zero in the resolved document; they are drawn at a free position with a dashed outline. Every
 /// component is a group with its path in `data-part`.
 ///
@@ -75,7 +76,8 @@ fn length(things: &Things) -> f64 {
         .parts
         .iter()
         .filter_map(|p| p.at.map(|at| (at, 0.5 * p.size[0].unwrap_or(0.0))));
-    let all = gears.chain(parts);
+    let chains = things.chains.iter().map(|chain| (chain.at, 0.0));
+    let all = gears.chain(parts).chain(chains);
     let [first, last] = all.fold([f64::INFINITY, f64::NEG_INFINITY], |span, (at, half)| {
         [span[0].min(at - half), span[1].max(at + half)]
     });

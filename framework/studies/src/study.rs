@@ -131,6 +131,10 @@ pub struct Conditions {
     #[schemars(length(min = 2))]
     #[schemars(extend("x-refers-to" = "ports"))]
     pub wheels: Option<Vec<String>>,
+    /// Speeds of the ports of `wheels` over their common speed, in the same order, as in a corner: `[1.06, 0.94]`. Default: from the
+    /// gearbox, else all one. [-]
+    #[schemars(inner(range(min = 0.0, max = 2.0)), length(min = 2))]
+    pub wheel_speeds: Option<Vec<f64>>,
     /// Oil temperature; default: from the gearbox, given or by heat balance at each point. [degC]
     #[schemars(range(min = -60.0, max = 250.0))]
     pub oil_temperature: Option<f64>,
@@ -149,6 +153,7 @@ impl Default for Conditions {
             torque_at: input(),
             speed_at: input(),
             wheels: None,
+            wheel_speeds: None,
             oil_temperature: None,
             power_flow: PowerFlow::Real,
             set: Ordered::default(),

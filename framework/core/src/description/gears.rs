@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::shafts::Unsupported;
+use crate::mechanism::clutch::Clutch;
+use crate::mechanism::differential::{Differential, DifferentialGears};
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
@@ -256,8 +258,8 @@ fn equal() -> f64 {
     1.0
 }
 
-/// A differential: the speeds of both sides relative to the case add up to zero.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+/// A differential: the speeds of both sides relative to the case add up to zero. Without a `model` its gears have no friction.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct DifferentialEntry {
     /// Shaft that is the case.
     #[schemars(extend("x-refers-to" = "shafts"))]
@@ -268,7 +270,31 @@ pub struct DifferentialEntry {
     /// Right side shaft.
     #[schemars(extend("x-refers-to" = "shafts"))]
     pub right: String,
-    /// Both sides have equal speed unless a point prescribes their speeds.
+    /// The difference of the speeds of both sides follows from `speed_difference` unless a point prescribes their speeds; `false` if every
+    /// point prescribes them.
     #[serde(default = "yes")]
     pub equal_speeds: bool,
+    /// Speed of the left side minus that of the right one, over the mean of both, as in a corner: track width over the radius of the
+    /// corner if the right wheel is inside. Zero: both sides have equal speed. For ports of `wheels`, state `wheel_speeds`. [-]
+    #[serde(default)]
+    #[schemars(range(min = -2.0, max = 2.0))]
+    pub speed_difference: f64,
+    /// The gears inside, for models of their friction.
+    pub gears: Option<DifferentialGears>,
+    /// Friction between both sides that does not depend on torque, as of a limited slip differential with springs or preloaded discs (the
+    /// moment of one side against the case), or of a viscous lock.
+    pub locking: Option<ModelRef<Clutch>>,
+    /// Oil; default: that of the housing.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
+    pub lubricant: Option<String>,
+    /// Oil temperature at the differential minus that of the sump. [K]
+    #[serde(default)]
+    #[schemars(range(min = -200.0, max = 200.0))]
+    pub temperature_offset: f64,
+    /// Factor on the losses, for effects that the models do not include. An identification may fit it. [-]
+    #[serde(default = "default_one")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub loss_factor: f64,
+    /// Model of the friction of the gears; default: that of `models`, else none.
+    pub model: Option<ModelRef<Differential>>,
 }

@@ -14,7 +14,7 @@ use crate::transmission::Transmission;
 impl Transmission {
     /// Share of full friction at a contact, from the relative speed of its bodies and their common speed.
     #[inline(always)]
-    fn grip<R: Real>(&self, relative: R, together: R) -> R {
+    pub(super) fn grip<R: Real>(&self, relative: R, together: R) -> R {
         let full = together.abs() * self.locked_below;
         let slides = !relative.abs().is_below(full);
         R::select(slides, R::constant(1.0), relative.abs() / full)

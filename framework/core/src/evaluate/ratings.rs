@@ -87,7 +87,7 @@ impl Ratings {
                             .map(|built| Some(Kind::Mesh(i, built)))
                     }
                     // Drags are rated with their gears.
-                    PartKind::Mesh(_) | PartKind::Drag(_) => continue,
+                    PartKind::Mesh(_) | PartKind::Drag(_) | PartKind::Transfer(_) => continue,
                 };
                 match built {
                     Ok(None) => {}

@@ -36,7 +36,7 @@ pub(crate) fn readings<M: Mechanism>(at: &M::At<'_, f64>) -> Vec<Reading> {
 pub struct MemberTorques {
     /// From ports, and from supports that hold a stationary member.
     pub ports: f64,
-    /// From meshes and differentials, including tooth friction.
+    /// From meshes, chains, joints and differentials, including their friction.
     pub meshes: f64,
     /// From drag of components and gears.
     pub drags: f64,
@@ -63,6 +63,7 @@ impl Solution<'_> {
             PartKind::Component(i) => t.components[i].placed.readings(&state),
             PartKind::Mesh(i) => self.mesh_at(i).map_or_else(Vec::new, |at| readings::<GearMesh>(&at)),
             PartKind::Drag(i) => readings::<GearDrag>(&t.drag_at(i, &state, &Notebook::CLOSED)),
+            PartKind::Transfer(i) => self.transfer_readings(i),
         }
     }
 

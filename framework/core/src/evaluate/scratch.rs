@@ -104,7 +104,7 @@ pub(super) struct Models<R: Points> {
     pub passed: Vec<R>,
     /// Closings of pairs with a preload, by member; empty without such pairs. \[m\]
     pub closings: Vec<R>,
-    /// Tangential force of each mesh as its law was evaluated, and at the present torques. \[N\]
+    /// Tangential force of each mesh as its law was evaluated, and at the present torques; those of chains follow. \[N\]
     pub tangential: Vec<R>,
     pub forces: Vec<R>,
     /// Friction force of each mesh at the present torques, with the sign of the speed of the first gear, and the round in which it was found;
@@ -115,6 +115,9 @@ pub(super) struct Models<R: Points> {
     pub ideal: bool,
     pub component_losses: Vec<Result<Loss<R>, Undefined>>,
     pub mesh_losses: Vec<Result<Loss<R>, Undefined>>,
+    /// Torque on the first side of each chain, joint and differential as its law was evaluated, and its loss. \[Nm\]
+    pub transfer_torques: Vec<R>,
+    pub transfer_losses: Vec<Result<Loss<R>, Undefined>>,
     pub drag_losses: Vec<Result<Loss<R>, Undefined>>,
     /// What each gear lifts out of the sump.
     pub lifted: Vec<Lifted<R>>,
@@ -195,6 +198,7 @@ impl<R: Points> Scratch<R> {
         let columns = case.flow.columns();
         let (supports, meshes) = (transmission.supports.len(), transmission.meshes.len());
         let instances = transmission.instances.len();
+        let forces = transmission.force_factors().count();
         let zeros = |count: usize| vec![R::ZERO; count];
         // Not evaluated yet.
         let losses = |count: usize| vec![Ok(Loss::POWERS); count];
@@ -219,20 +223,22 @@ impl<R: Points> Scratch<R> {
                     calls: Cell::new(0),
                 },
                 uneven_loads: [(); 2].map(|()| vec![SupportLoad::default(); uneven(supports)]),
-                uneven_forces: zeros(uneven(meshes)),
+                uneven_forces: zeros(uneven(forces)),
                 passed: zeros(transmission.loads.scratch_len()),
                 closings: zeros(if transmission.pairs.iter().any(|pair| pair.preload.is_some()) {
                     transmission.members.len()
                 } else {
                     0
                 }),
-                tangential: zeros(meshes),
-                forces: zeros(meshes),
+                tangential: zeros(forces),
+                forces: zeros(forces),
                 friction: zeros(with_friction),
                 found_friction: vec![0; with_friction],
                 ideal: false,
                 component_losses: losses(transmission.components.len()),
                 mesh_losses: losses(meshes),
+                transfer_torques: zeros(transmission.transfers.len()),
+                transfer_losses: losses(transmission.transfers.len()),
                 drag_losses: losses(transmission.drags.len()),
                 lifted: vec![Lifted::default(); transmission.oils.sump.as_ref().map_or(0, Sump::lifts)],
                 relative: zeros(transmission.components.len()),

@@ -109,6 +109,12 @@ impl Transmission {
                 let factor = R::constant(count) * self.mesh_grip(i, speeds);
                 (&m.mesh_losses[i], speed, factor, speed.is_zero())
             }
+            PartKind::Transfer(i) => {
+                let transfer = &self.transfers[i];
+                let speed = self.transfer_speed(transfer, speeds);
+                let factor = self.transfer_grip(transfer, speeds) * transfer.loss_factor;
+                (&m.transfer_losses[i], speed, factor, speed.is_zero())
+            }
             PartKind::Drag(i) => {
                 let seat = &self.drags[i].seat;
                 let [first, second] = seat.members.map(|m| speeds[m]);
@@ -161,10 +167,9 @@ impl Solution<'_> {
     /// meshes.
     pub fn turned_meshes(&self) -> impl Iterator<Item = &str> {
         let paths = |mesh| {
+            let kind = self.transmission.kind_of_row(mesh);
             let parts = &mut self.transmission.parts.iter();
-            parts
-                .find(|part| part.kind == PartKind::Mesh(mesh))
-                .map(|part| part.path.as_str())
+            parts.find(|part| part.kind == kind).map(|part| part.path.as_str())
         };
         self.scratch.work.doubtful().filter_map(paths)
     }
@@ -275,11 +280,14 @@ impl Solution<'_> {
         let t = self.transmission;
         let models = &self.scratch.models;
         let support = t.pairs.get(pair)?.supports().next()?;
-        let forces = models.forces.iter().zip(&t.meshes);
+        let forces = models.forces.iter().enumerate();
         let forces: Vec<f64> = forces
-            .map(|(force, mesh)| match mesh.sharing.filter(|_| most_loaded) {
-                Some(sharing) => *force * sharing.factors()[0],
-                None => *force,
+            .map(|(i, force)| {
+                let sharing = t.meshes.get(i).and_then(|mesh| mesh.sharing);
+                match sharing.filter(|_| most_loaded) {
+                    Some(sharing) => *force * sharing.factors()[0],
+                    None => *force,
+                }
             })
             .collect();
         let mut passed = vec![0.0; t.loads.scratch_len()];
@@ -473,6 +481,11 @@ impl Solution<'_> {
             }
             PartKind::Mesh(i) => t.mesh(i, s.models.tangential[i], s.work.drives[i], &state, &book, &mut true),
             PartKind::Drag(i) => t.drag(i, &state, &book, &mut true),
+            PartKind::Transfer(i) => {
+                let drives = s.work.drives[t.meshes.len() + i];
+                let at = (i, s.models.transfer_torques[i], drives);
+                t.transfer_loss(self.case, at, &state, &book, &mut true)
+            }
         };
         (loss, trace)
     }

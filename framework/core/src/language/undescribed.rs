@@ -11,11 +11,7 @@ const SECTIONS: [(&[&str], &str, &str); 4] = [
 ];
 
 /// Words for stages that cannot be described.
-const STAGES: [(&[&str], &str); 3] = [
-    (&["chain", "chains"], "chain drives"),
-    (&["belt", "belts"], "belt drives"),
-    (&["harmonic", "strain", "cycloidal"], "strain wave and cycloidal gears"),
-];
+const STAGES: [(&[&str], &str); 1] = [(&["harmonic", "strain", "cycloidal"], "strain wave and cycloidal gears")];
 
 /// Keys of axes that are not parallel.
 const AXES: [&str; 4] = ["direction", "tilt", "axis_angle", "inclination"];

@@ -99,7 +99,9 @@ pub struct CylindricalMesh {
     pub sign: f64,
     /// Unit vector in y and z from the axis of the first gear to the contact.
     pub direction: [f64; 2],
-    /// Tangent of the working transverse pressure angle.
+    /// Force across the line of centres per newton of tangential force: one for gears, less for a chain.
+    pub across: f64,
+    /// Tangent of the working transverse pressure angle; for a chain the pull along the line of centres, negative.
     pub tan_alpha: f64,
     /// Tangent of the working helix angle times the hand of the first gear, +1 for right; zero without net thrust.
     pub hand_tan_beta: f64,
@@ -136,7 +138,11 @@ impl CylindricalMesh {
         let turn = if gear == 0 { 1.0 } else { -1.0 };
         // t = x cross e.
         [
-            [-turn * self.hand_tan_beta, -turn * ez, turn * ey],
+            [
+                -turn * self.hand_tan_beta,
+                -turn * ez * self.across,
+                turn * ey * self.across,
+            ],
             [0.0, -turn * self.tan_alpha * ey, -turn * self.tan_alpha * ez],
         ]
     }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::SupportLoad;
-use super::layout::{Layout, Senses, LoadFault, MemberLayout, SupportLayout};
+use super::layout::{Layout, LoadFault, MemberLayout, Senses, SupportLayout};
 use super::pair::{Pair, PairLoads};
 use super::statics::{Action, Reaction, Statics};
 use super::thrust::Taking;
@@ -101,7 +101,9 @@ impl Cases {
             .collect();
         let torqueless = always.force != [0.0; 2] || planets.iter().any(|(_, planet)| planet.force != [0.0; 2]);
         let only = match &meshes[..] {
-            [(mesh, senses)] if !torqueless && friction.is_empty() => Some((*mesh, senses.map(|reaction| length(reaction.force)))),
+            [(mesh, senses)] if !torqueless && friction.is_empty() => {
+                Some((*mesh, senses.map(|reaction| length(reaction.force))))
+            }
             _ => None,
         };
         let of_friction = friction.iter().flat_map(|(_, senses)| senses.as_flattened());

@@ -52,7 +52,10 @@ fn gears(mesh: &MeshLayout) -> &CylindricalMesh {
 }
 
 fn teeth<R>(tangential: &[R]) -> ToothForces<'_, R> {
-    ToothForces { tangential, friction: &[] }
+    ToothForces {
+        tangential,
+        friction: &[],
+    }
 }
 
 impl Teeth {
@@ -68,6 +71,7 @@ impl Teeth {
             radius: self.z.map(|z| self.a * 1e-3 * z / teeth),
             sign: self.sign,
             direction,
+            across: 1.0,
             tan_alpha: working.tan(),
             hand_tan_beta: hand * beta.tan() * alpha_t.cos() / working.cos(),
             count: 1.0,
@@ -953,6 +957,7 @@ fn loads_of_a_pair_are_found_together() {
         radius: [0.03, 0.09],
         sign: 1.0,
         direction: [1.0, 0.0],
+        across: 1.0,
         tan_alpha: 0.4,
         hand_tan_beta: 0.0,
         count: 1.0,
@@ -982,7 +987,10 @@ fn loads_of_a_pair_are_found_together() {
         .unwrap();
     assert_eq!(pair.axial, [loads[0].axial, loads[1].axial]);
     assert_eq!((pair.thrust, pair.mutual()), (0.0, loads[0].axial));
-    assert_eq!(solved.pair_loads(2, teeth(&[0.0, 1000.0]), &[0.0; 3], &[], &mut passed), None);
+    assert_eq!(
+        solved.pair_loads(2, teeth(&[0.0, 1000.0]), &[0.0; 3], &[], &mut passed),
+        None
+    );
 }
 
 #[test]

@@ -205,6 +205,20 @@ impl<C: Component> Placed for PlacedAs<C> {
     }
 }
 
+/// A component between two members that the framework places itself, such as the lock of a differential.
+pub(crate) fn place_between<C, A>(part: Arc<C::Part>, seat: A::Seat, spot: Spot, model: Slot<C>) -> Box<dyn Placed>
+where
+    C: Component<Attachment = A>,
+    A: Attach,
+{
+    Box::new(PlacedAs::<C> {
+        part,
+        seat,
+        spot,
+        model,
+    })
+}
+
 /// A mechanism's section of the document.
 #[derive(Clone, Copy)]
 pub struct Section {

@@ -15,8 +15,10 @@ use super::preloads::Preloading;
 use super::seats::{GearSeat, MeshSeat};
 use super::states::{GearState, states};
 use super::statics::{Imported, imported, load_factors, shaft_loads};
+use super::transfers::{self, Transfer, TransferSeat};
 use super::{
-    Component, DragModel, MeshLaw, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Sump, Transmission, WHEELS,
+    Component, DragModel, MeshLaw, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Sump, Transmission,
+    WHEEL_SPEEDS, WHEELS,
 };
 use crate::attach::{Common, Level, Names, Places, Seated, SeatedClearance, SeatedPocket, SeatedSupport, dangling};
 use crate::codes;
@@ -26,6 +28,7 @@ use crate::hydraulics::Hydraulics;
 use crate::language::Language;
 use crate::loads::ShaftLoads;
 use crate::mechanism::ModelRef;
+use crate::mechanism::clutch::Clutch;
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::mechanism::seal::Seal;
@@ -96,7 +99,7 @@ impl Transmission {
         let (states, cases) = states(
             entry,
             members,
-            &frame.meshes,
+            (&frame.meshes, &frame.transfers),
             &models.clearances,
             (ports, &frame.wheels),
             &mut memory,
@@ -141,6 +144,7 @@ impl Transmission {
             gears: frame.gears,
             meshes: models.meshes,
             drags: models.drags,
+            transfers: models.transfers,
             components: models.components,
             limited: limited(&instances, &parts, (&rated, &pairs), (supports, cells)),
             parts,
@@ -253,6 +257,7 @@ struct Frame {
     wheels: Vec<Port>,
     gears: Vec<GearSeat>,
     meshes: Vec<MeshSeat>,
+    transfers: Vec<TransferSeat>,
     /// Unequal load sharing of each planet body.
     sharing: Vec<Option<Sharing>>,
     nodes: NodeNames,
@@ -275,6 +280,7 @@ impl Frame {
         let (gears, meshes) = gearing(language.registry(), &entry, &members, memory, found, warnings);
         let sharing = planets::sharing(&entry, &members, found);
         classify(found, codes::GEARING);
+        let transfers = transfers::seats(&entry, &members, found, warnings);
         let nodes = NodeNames::new(&entry, found);
         classify(found, codes::NETWORK);
         Ok(Self {
@@ -284,6 +290,7 @@ impl Frame {
             wheels,
             gears,
             meshes,
+            transfers,
             sharing,
             nodes,
         })
@@ -316,6 +323,7 @@ struct Models {
     components: Vec<Component>,
     meshes: Vec<MeshModel>,
     drags: Vec<DragModel>,
+    transfers: Vec<Transfer>,
     parts: Vec<PartInfo>,
     supports: Vec<SeatedSupport>,
     clearances: Vec<SeatedClearance>,
@@ -375,7 +383,7 @@ impl Models {
         shaft_loads(
             &frame.entry,
             &frame.members,
-            &frame.meshes,
+            (&frame.meshes, &frame.transfers),
             supports,
             memory,
             found,
@@ -397,6 +405,11 @@ impl Models {
         classify(found, codes::COMPONENT);
         models.meshes = mesh_models(frame, oils, build, &mut models.parts, found);
         give_bodies(&mut models.meshes, gears, &frame.nodes, warnings);
+        let seats = frame.transfers.clone();
+        models.transfers = transfers::models(entry, seats, oils, build, &mut models.parts, found);
+        for locking in transfers::locking(entry, &frame.members, oils, build, found) {
+            place_locking(locking, &mut models.components, &mut models.parts);
+        }
         let held = planets::models(entry, &frame.members, gears, meshes, oils, build, found);
         let covered = place_sets(held, &mut models.components, &mut models.parts);
         classify(found, codes::MODEL);
@@ -464,6 +477,19 @@ fn place_sets(held: Vec<Held>, components: &mut Vec<Component>, parts: &mut Vec<
         covered.push(model.covered);
     }
     covered
+}
+
+/// Adds the friction between the sides of a differential to the components.
+fn place_locking(locking: transfers::Locking, components: &mut Vec<Component>, parts: &mut Vec<PartInfo>) {
+    parts.push(PartInfo {
+        path: locking.path,
+        mechanism: Clutch::KEY,
+        kind: PartKind::Component(components.len()),
+        count: 1.0,
+        loss_factor: locking.loss_factor,
+        notes: locking.placed.notes(),
+    });
+    components.push(Component::new(locking.placed, locking.loss_factor, None));
 }
 
 /// Where the heat of each part enters the network.
@@ -632,6 +658,9 @@ fn joined(
     ports: Vec<Port>,
     found: &mut Vec<Diagnostic>,
 ) -> (Vec<Port>, Vec<Port>) {
+    if let Some(speeds) = &entry.wheel_speeds {
+        found.extend(faults_of_speeds(entry.wheels.as_deref(), speeds));
+    }
     let Some(names) = &entry.wheels else {
         return (ports, Vec::new());
     };
@@ -655,6 +684,24 @@ fn joined(
         member: members.names.len(),
     });
     (ports, wheels)
+}
+
+/// What is wrong with the speeds of the ports of `wheels`.
+fn faults_of_speeds(wheels: Option<&[String]>, speeds: &[f64]) -> Option<Diagnostic> {
+    let fault = match wheels {
+        None => Diagnostic::error(WHEEL_SPEEDS, "`wheels` is missing, so these are the speeds of no ports").help(
+            "add `wheels: [left, right]` with the ports of the wheels; or state `speed_difference` of a differential",
+        ),
+        Some(wheels) if wheels.len() != speeds.len() => Diagnostic::error(
+            WHEEL_SPEEDS,
+            format!("{} speeds for {} ports of `wheels`", speeds.len(), wheels.len()),
+        )
+        .help("write one number for each port, in the order of `wheels`"),
+        Some(_) if speeds.iter().all(|speed| *speed == 0.0) => Diagnostic::error(WHEEL_SPEEDS, "no wheel turns")
+            .help("write speeds over the common speed, such as `[1.05, 0.95]`"),
+        Some(_) => return None,
+    };
+    Some(fault.code(codes::DIFFERENTIAL))
 }
 
 /// Places the components of all sections.
@@ -719,6 +766,7 @@ fn place(
         components,
         meshes: Vec::new(),
         drags: Vec::new(),
+        transfers: Vec::new(),
         parts,
         supports,
         clearances,

@@ -164,7 +164,14 @@ impl CrossedTeeth {
                 force: place * in_frame,
                 moment: Vector3::zeros(),
             };
-            let unit = UnitFriction::new(&cones, &frame, blank.as_ref(), in_frame, flank, (pressure_angle, limit_factor));
+            let unit = UnitFriction::new(
+                &cones,
+                &frame,
+                blank.as_ref(),
+                in_frame,
+                flank,
+                (pressure_angle, limit_factor),
+            );
             let friction = Wrench {
                 force: place * unit.wrench.force * turns,
                 moment: place * unit.wrench.moment * (turns * mirror),

@@ -74,7 +74,10 @@ impl Gearing<'_> {
         let mut fault = None;
         let [Some(first), Some(second)] = bodies.map(|body| self.members.axes[body]) else {
             if let Some(body) = bodies.into_iter().find(|body| self.members.planets[*body].is_some()) {
-                let message = format!("`{}` is a planet body: gears on it are cylindrical", self.members.names[body]);
+                let message = format!(
+                    "`{}` is a planet body: gears on it are cylindrical",
+                    self.members.names[body]
+                );
                 let fault = Diagnostic::error(format!("{path}.gears"), message);
                 self.found.push(
                     fault
@@ -179,10 +182,15 @@ impl Gearing<'_> {
         let id = |i: usize| &self.entry.gears.0[gears[i]].0;
         let left = match hands {
             [None, None] if matters => {
-                let fault = Diagnostic::error(format!("gears.{}", id(0)), "`hand` is missing on a gear with inclined teeth")
-                    .code(codes::CROSSED)
-                    .note(format!("in `{path}` the hand determines the directions of thrust and rotation"))
-                    .help("add `hand: right` or `hand: left` to one gear of the pair");
+                let fault = Diagnostic::error(
+                    format!("gears.{}", id(0)),
+                    "`hand` is missing on a gear with inclined teeth",
+                )
+                .code(codes::CROSSED)
+                .note(format!(
+                    "in `{path}` the hand determines the directions of thrust and rotation"
+                ))
+                .help("add `hand: right` or `hand: left` to one gear of the pair");
                 self.found.push(fault);
                 return None;
             }
@@ -288,10 +296,22 @@ impl Gearing<'_> {
         let signed = signed_offset(through, towards);
         let before = self.found.len();
         if let Some(stated) = mesh.shaft_angle {
-            self.differs(format!("{path}.shaft_angle"), "the shaft angle", (stated, shaft_angle), ANGLE, "deg");
+            self.differs(
+                format!("{path}.shaft_angle"),
+                "the shaft angle",
+                (stated, shaft_angle),
+                ANGLE,
+                "deg",
+            );
         }
         if let Some(stated) = mesh.offset {
-            self.differs(format!("{path}.offset"), "the offset", (stated, signed.abs()), LENGTH, "mm");
+            self.differs(
+                format!("{path}.offset"),
+                "the offset",
+                (stated, signed.abs()),
+                LENGTH,
+                "mm",
+            );
         }
         if self.found.len() > before {
             return None;
@@ -323,7 +343,9 @@ impl Gearing<'_> {
             addendum_angle: mesh.depth.addendum_angle,
             dedendum_angle: mesh.depth.dedendum_angle,
         };
-        let outer = mesh.outer_diameter.or(mesh.outer_module.map(|module| module * f64::from(z[1])));
+        let outer = mesh
+            .outer_diameter
+            .or(mesh.outer_module.map(|module| module * f64::from(z[1])));
         let blank = Blank::new(&cones, &depth, facewidth, outer);
         if !is_sound(&cones, &blank) {
             return self.impossible(
@@ -374,7 +396,9 @@ impl Gearing<'_> {
             );
             return None;
         }
-        let outer = mesh.outer_diameter.or(mesh.outer_module.map(|module| module * f64::from(z[1])));
+        let outer = mesh
+            .outer_diameter
+            .or(mesh.outer_module.map(|module| module * f64::from(z[1])));
         let intersect = offset.abs() <= INTERSECTS;
         let of_hypoid = [
             ("method", mesh.method.is_some()),
@@ -411,7 +435,10 @@ impl Gearing<'_> {
             _ => {
                 self.impossible(
                     path.to_owned(),
-                    format!("the axes have an offset of {:.4} mm, and what determines the pitch cones is not stated once", offset.abs() * 1e3),
+                    format!(
+                        "the axes have an offset of {:.4} mm, and what determines the pitch cones is not stated once",
+                        offset.abs() * 1e3
+                    ),
                     "state `cutter` with its `method`, or `wheel_pitch_angle` from the drawing",
                 );
                 return None;
@@ -490,7 +517,11 @@ impl Gearing<'_> {
                 signed.abs() * 1e3,
                 (diameter + wheel) * 500.0
             );
-            return self.impossible(path, message, "correct the axes, the module or the diameter of the worm");
+            return self.impossible(
+                path,
+                message,
+                "correct the axes, the module or the diameter of the worm",
+            );
         }
         // Rolling is without slip where the worm is as far from its axis as the reference cylinder of the wheel leaves.
         let rolling = diameter + 2.0 * shift * mesh.module;
@@ -535,7 +566,9 @@ impl Gearing<'_> {
         let (through, directions) = lines([&on.axes[0], &on.axes[1]]);
         let signed = signed_offset(through, directions);
         let along = along_of_cylinders(&cones, left, signed);
-        let between = (directions[0].dot(&directions[1]) * along[0] * along[1]).clamp(-1.0, 1.0).acos();
+        let between = (directions[0].dot(&directions[1]) * along[0] * along[1])
+            .clamp(-1.0, 1.0)
+            .acos();
         let before = self.found.len();
         self.differs(
             format!("{path}.helix_angle"),
@@ -582,7 +615,16 @@ fn along_of_cylinders(cones: &PitchCones, left: bool, signed: f64) -> [f64; 2] {
 /// True if all dimensions are numbers that a gear can have.
 fn is_sound(cones: &PitchCones, blank: &Blank) -> bool {
     let lengths = [cones.radius, blank.tip_diameter, blank.facewidth];
-    let angles = cones.pitch_angle.iter().all(|angle| *angle > 0.0 && *angle < FRAC_PI_2 + 0.6);
-    angles && lengths.iter().flatten().all(|length| length.is_finite() && *length > 0.0)
-        && feet(MeanPoint::new(cones).foot, MeanPoint::new(cones).axis).iter().all(|foot| foot.is_finite())
+    let angles = cones
+        .pitch_angle
+        .iter()
+        .all(|angle| *angle > 0.0 && *angle < FRAC_PI_2 + 0.6);
+    angles
+        && lengths
+            .iter()
+            .flatten()
+            .all(|length| length.is_finite() && *length > 0.0)
+        && feet(MeanPoint::new(cones).foot, MeanPoint::new(cones).axis)
+            .iter()
+            .all(|foot| foot.is_finite())
 }

@@ -138,12 +138,7 @@ impl Drags<'_, '_, '_> {
             },
             part: (self.build).part_again(
                 &format!("{} drag", mesh.path),
-                part(
-                    self.entry,
-                    self.oils.filled(),
-                    first,
-                    Some(mate),
-                ),
+                part(self.entry, self.oils.filled(), first, Some(mate)),
             ),
             common: Common {
                 // Braking of both gears at the mesh is their drag, not the loss of the mesh.

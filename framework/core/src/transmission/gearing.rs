@@ -247,7 +247,10 @@ impl<'a> Gearing<'a> {
             return Some(());
         };
         let names = &self.members.names;
-        let message = format!("the axis of `{}` is not parallel to that of the carrier `{}`", names[body], names[carrier]);
+        let message = format!(
+            "the axis of `{}` is not parallel to that of the carrier `{}`",
+            names[body], names[carrier]
+        );
         self.found.push(
             Diagnostic::error(format!("{path}.gears"), message)
                 .code(codes::AXES)

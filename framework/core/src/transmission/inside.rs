@@ -268,7 +268,11 @@ fn reach(axis: &Axis, section: &Outline) -> [f64; 2] {
     let within = |range: [f64; 2], origin: f64, slope: f64| {
         if slope == 0.0 {
             let inside = range[0] <= origin && origin <= range[1];
-            return if inside { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
+            return if inside {
+                [f64::NEG_INFINITY, f64::INFINITY]
+            } else {
+                [0.0; 2]
+            };
         }
         let [a, b] = range.map(|end| (end - origin) / slope);
         [a.min(b), a.max(b)]

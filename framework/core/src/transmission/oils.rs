@@ -212,7 +212,8 @@ impl<'a> OilNumbers<'a> {
                 match shafts.iter().position(|s| s == from) {
                     Some(member) => {
                         let axis = members.axes[member].filter(|axis| !axis.is_along_x());
-                        let along_x = members.axes[member].map_or([0.0; 3], |axis| [0.0, axis.origin[1], axis.origin[2]]);
+                        let along_x =
+                            members.axes[member].map_or([0.0; 3], |axis| [0.0, axis.origin[1], axis.origin[2]]);
                         datum = axis.map_or(along_x, |axis| axis.origin);
                     }
                     None => findings.push(dangling("housing.oil.measured_from", "shaft", from, &shafts)),

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{Case, CrossedKind, Transmission};
+use super::{Case, CrossedKind, TransferLaw, Transmission};
 
 /// Derived geometry of one mesh; values of two gears in the order of `gears`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -131,6 +131,49 @@ impl Transmission {
                 at_mm: mm(gears.map(|gear| gear.at)),
                 mounting_distance_mm: mm(teeth.mounting_distance()),
                 mean_point_mm: (teeth.mean_point * 1e3).into(),
+            })
+        })
+    }
+}
+
+/// Derived geometry of one chain or belt over wheels with teeth; values of two wheels in the order of `wheels`.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct ChainStage {
+    /// Path of the chain.
+    pub chain: String,
+    /// Numbers of teeth. [-]
+    pub z: [u32; 2],
+    /// Number of teeth of the second wheel over that of the first. [-]
+    pub ratio: f64,
+    /// Centre distance. [mm]
+    pub centre_distance_mm: f64,
+    /// Radii at which the tension acts: the length of the links around a wheel over 2 pi. [mm]
+    pub radius_mm: [f64; 2],
+    /// Angles over which the chain wraps the wheels. [deg]
+    pub wrap_deg: [f64; 2],
+    /// Length that wheels and centre distance need, in links. [-]
+    pub links_needed: f64,
+    /// Links that are stated; null if none are. [-]
+    pub links: Option<u32>,
+}
+
+impl Transmission {
+    /// Derived geometry of all chains and belts over wheels with teeth.
+    pub fn chain_stages(&self) -> impl Iterator<Item = ChainStage> {
+        self.transfers.iter().filter_map(|transfer| {
+            let (TransferLaw::Chain(part, _), Some(strands)) = (&transfer.law, &transfer.seat.strands) else {
+                return None;
+            };
+            let z = part.z?;
+            Some(ChainStage {
+                chain: transfer.seat.path.clone(),
+                z,
+                ratio: f64::from(z[1]) / f64::from(z[0]),
+                centre_distance_mm: strands.distance * 1e3,
+                radius_mm: strands.radii.map(|r| r * 1e3),
+                wrap_deg: strands.wraps().map(f64::to_degrees),
+                links_needed: strands.length / part.pitch?,
+                links: part.links,
             })
         })
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::case::Cases;
 use super::members::Members;
 use super::seats::MeshSeat;
+use super::transfers::TransferSeat;
 use crate::attach::{SeatedClearance, dangling};
 use crate::codes;
 use crate::description::GearboxEntry;
@@ -46,6 +47,34 @@ pub struct GearState {
     pub freedom: usize,
 }
 
+impl GearState {
+    /// Adds a row with friction.
+    fn add(&mut self, seat: &TransferSeat) {
+        let ([first, second], [z1, sz2]) = (seat.members, seat.row);
+        let row = MeshRow {
+            row: self.rows.len(),
+            first: Some(first),
+            z1,
+            second: Some(second),
+            sz2,
+            carrier: seat.carrier,
+        };
+        let speeds = Row::mesh(row.first, z1, row.second, sz2, row.carrier);
+        self.train.rows.push(speeds);
+        self.rows.push(RowName::Path(seat.path.clone()));
+        self.meshes.push(row);
+    }
+
+    /// Changes the coefficients of a row with friction, by its number among those.
+    fn turn_at(&mut self, number: usize, [z1, sz2]: [f64; 2]) {
+        let row = &mut self.meshes[number];
+        if [row.z1, row.sz2] != [z1, sz2] {
+            (row.z1, row.sz2) = (z1, sz2);
+            self.train.rows[row.row] = Row::mesh(row.first, z1, row.second, sz2, row.carrier);
+        }
+    }
+}
+
 /// Everything that determines the gear states.
 #[derive(PartialEq)]
 struct Plan {
@@ -53,6 +82,9 @@ struct Plan {
     base: GearState,
     /// Name, engaged couplings and members at standstill of each.
     written: Vec<(String, Vec<String>, Vec<String>)>,
+    transfers: Vec<TransferSeat>,
+    /// Number of the first row with friction that is no gear mesh.
+    first_transfer: usize,
     members: Vec<String>,
     clearances: Vec<SeatedClearance>,
     ports: Vec<super::Port>,
@@ -87,7 +119,7 @@ pub(super) fn in_state(name: &str) -> String {
 pub fn states(
     entry: &GearboxEntry,
     members: &Members,
-    meshes: &[MeshSeat],
+    (meshes, transfers): (&[MeshSeat], &[TransferSeat]),
     clearances: &[SeatedClearance],
     (ports, wheels): (&[super::Port], &[super::Port]),
     memory: &mut Memory,
@@ -96,7 +128,7 @@ pub fn states(
     if !found.is_empty() {
         return Default::default();
     }
-    let base = all_open(entry, members, meshes, wheels, found);
+    let base = all_open(entry, members, (meshes, transfers), wheels, found);
     let written = if entry.gear_states.is_empty() {
         vec![(ONLY.to_owned(), Vec::new(), Vec::new())]
     } else {
@@ -109,6 +141,8 @@ pub fn states(
     let plan = Plan {
         base,
         written,
+        transfers: transfers.to_vec(),
+        first_transfer: meshes.len(),
         members: members.names.clone(),
         clearances: clearances.to_vec(),
         ports: ports.to_vec(),
@@ -125,6 +159,8 @@ fn planned(plan: &Plan) -> Planned {
     let Plan {
         base,
         written,
+        transfers,
+        first_transfer,
         members,
         clearances,
         ports,
@@ -141,6 +177,9 @@ fn planned(plan: &Plan) -> Planned {
             engaged: engaged.clone(),
             ..base.clone()
         };
+        for (seat, row) in transfers.iter().zip(*first_transfer..) {
+            state.turn_at(row, seat.row_in(name));
+        }
         for id in engaged {
             match clearances.iter().find(|c| c.id == *id) {
                 Some(clearance) => {
@@ -157,11 +196,20 @@ fn planned(plan: &Plan) -> Planned {
                 None => found.push(dangling(&format!("{path}.standstill"), "shaft or idler gear", id, &ids)),
             }
         }
-        if *has_wheels {
-            // Wheels with equal speed make the rule of some differentials redundant.
-            let freedom = Motion::freedom(&state.train);
+        if *has_wheels || !engaged.is_empty() && !state.equal.is_empty() {
+            // Wheels whose speeds are stated, and a lock, make the rule of some differentials redundant, whatever speeds are stated: equal
+            // ones decide.
+            let mut straight = state.train.clone();
+            for (row, name) in straight.rows.iter_mut().zip(&state.rows) {
+                match (name, &mut row.terms[..]) {
+                    (RowName::Wheel(_), [_, axle]) => axle.1 = -1.0,
+                    (RowName::Equal(_), [left, right, _]) => (left.1, right.1) = (1.0, -1.0),
+                    _ => {}
+                }
+            }
+            let freedom = Motion::freedom(&straight);
             state.equal.retain(|difference| {
-                let mut held = state.train.clone();
+                let mut held = straight.clone();
                 held.rows.push(Row::joined(Some(*difference), None));
                 Motion::freedom(&held) < freedom
             });
@@ -178,7 +226,7 @@ fn planned(plan: &Plan) -> Planned {
 fn all_open(
     entry: &GearboxEntry,
     members: &Members,
-    meshes: &[MeshSeat],
+    (meshes, transfers): (&[MeshSeat], &[TransferSeat]),
     wheels: &[super::Port],
     found: &mut Vec<Diagnostic>,
 ) -> GearState {
@@ -214,11 +262,18 @@ fn all_open(
         state.rows.push(RowName::Path(mesh.path.clone()));
         state.meshes.push(row);
     }
-    add_differentials(&mut state, entry, members, found);
+    for seat in transfers.iter().filter(|seat| !seat.is_differential()) {
+        state.add(seat);
+    }
+    add_differentials(&mut state, entry, members, transfers, found);
     state.shares = shares(entry, members, meshes, &state.meshes, found);
     let first_wheel = state.rows.len();
-    for wheel in wheels {
-        state.train.rows.push(Row::joined(Some(wheel.member), Some(axle)));
+    for (number, wheel) in wheels.iter().enumerate() {
+        let speeds = entry.wheel_speeds.as_ref();
+        let speed = speeds.and_then(|speeds| speeds.get(number)).copied().unwrap_or(1.0);
+        state.train.rows.push(Row {
+            terms: vec![(wheel.member, 1.0), (axle, -speed)],
+        });
         state.rows.push(RowName::Wheel(wheel.name.clone()));
     }
     // If the transmission itself locks the wheels to equal speed, nothing else determines their torque split.
@@ -233,7 +288,13 @@ fn all_open(
 }
 
 /// Adds the row of each differential, and the rule that both of its sides have equal speed.
-fn add_differentials(state: &mut GearState, entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) {
+fn add_differentials(
+    state: &mut GearState,
+    entry: &GearboxEntry,
+    members: &Members,
+    transfers: &[TransferSeat],
+    found: &mut Vec<Diagnostic>,
+) {
     let ids: Vec<&str> = members.names.iter().map(String::as_str).collect();
     for (id, differential) in entry.differentials.iter() {
         let path = format!("differentials.{id}");
@@ -250,15 +311,21 @@ fn add_differentials(state: &mut GearState, entry: &GearboxEntry, members: &Memb
         let (Some(case), Some(left), Some(right)) = (case, left, right) else {
             continue;
         };
+        if let Some(seat) = transfers.iter().find(|seat| seat.path == path) {
+            state.add(seat);
+        } else {
+            let row = Row::mesh(Some(left), 1.0, Some(right), 1.0, Some(case));
+            state.train.rows.push(row);
+            state.rows.push(RowName::Path(path.clone()));
+        }
         let train = &mut state.train;
-        train
-            .rows
-            .push(Row::mesh(Some(left), 1.0, Some(right), 1.0, Some(case)));
-        state.rows.push(RowName::Path(path.clone()));
         if differential.equal_speeds {
             let column = train.columns;
             train.columns += 1;
-            train.rows.push(Row::difference(left, right, column));
+            let half = 0.5 * differential.speed_difference;
+            train
+                .rows
+                .push(Row::difference((left, 1.0 - half), (right, 1.0 + half), column));
             state.rows.push(RowName::Equal(path));
             state.equal.push(column);
         }

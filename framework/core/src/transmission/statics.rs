@@ -5,18 +5,19 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use super::crossed::{CrossedTeeth, Wrench};
 use super::members::Members;
 use super::pairs::{Design, NotCounted};
 use super::preloads;
-use super::crossed::{CrossedTeeth, Wrench};
 use super::seats::{CylindricalTeeth, MeshSeat, Teeth, orbit};
+use super::transfers::TransferSeat;
 use crate::attach::{Axial, Factor, SeatedSupport, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
 use crate::loads::{
-    CrossedMesh, CylindricalMesh, Induced, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, ShaftLoads, SupportLayout, SupportLoad,
-    Thrust,
+    CrossedMesh, CylindricalMesh, Induced, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section,
+    ShaftLoads, SupportLayout, SupportLoad, Thrust,
 };
 use crate::real::Real;
 use crate::registry::Memory;
@@ -106,7 +107,7 @@ impl Imported {
 pub fn shaft_loads(
     entry: &GearboxEntry,
     members: &Members,
-    meshes: &[MeshSeat],
+    (meshes, transfers): (&[MeshSeat], &[TransferSeat]),
     (supports, designs): (&[SeatedSupport], &[Design]),
     memory: &mut Memory,
     found: &mut Vec<Diagnostic>,
@@ -123,6 +124,16 @@ pub fn shaft_loads(
             .collect(),
         meshes: meshes.iter().map(|mesh| mesh_layout(mesh, entry, members)).collect(),
     };
+    for seat in transfers {
+        let Some(strands) = &seat.strands else { continue };
+        layout.meshes.push(strands.layout(seat.members));
+        for (wheel, member) in seat.members.into_iter().enumerate() {
+            if strands.slack > 0.0 {
+                let force = (strands.at[wheel], strands.permanent(wheel));
+                layout.members[member].forces.push(force);
+            }
+        }
+    }
     preloads::mark(&mut layout, supports, designs, &members.names, found);
     unsupported(entry, members, &layout, found, warnings);
     warnings.extend(
@@ -185,7 +196,9 @@ fn member_layout(
     if shaft.mass > 0.0 && members.planets[i].is_none() {
         let up = crate::immersion::upward(entry.housing.grade, entry.housing.bank);
         match shaft.mass_at {
-            Some(at) => member.forces.push((at, axis.local(up.map(|u| -u * shaft.mass * GRAVITY)))),
+            Some(at) => member
+                .forces
+                .push((at, axis.local(up.map(|u| -u * shaft.mass * GRAVITY)))),
             None => found.push(
                 Diagnostic::error(format!("shafts.{name}"), "a mass without `mass_at`")
                     .help("add `mass_at:`, the position of the centre of mass along the shaft"),
@@ -293,6 +306,7 @@ fn cylindrical_layout(
         radius: pair.working_radius,
         sign: pair.sign(),
         direction: teeth.direction,
+        across: 1.0,
         tan_alpha: pair.working_angle.tan(),
         hand_tan_beta: teeth.hand * pair.working_helix.tan(),
         count: mesh.count,

@@ -22,7 +22,7 @@ pub struct TorqueOrder {
 /// Torques and losses that are found together.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
 pub struct TorqueBlock {
-    /// Meshes, couplings, differentials and ports whose torque is found.
+    /// Meshes, chains, couplings, joints, differentials and ports whose torque is found.
     pub torques: Vec<String>,
     /// Components whose loss depends on torques and is found.
     pub losses: Vec<String>,
@@ -111,7 +111,7 @@ impl Transmission {
         };
         let named = |block: FlowBlock| {
             let rows = block.rows.into_iter().map(row);
-            let meshes = block.laws.meshes.iter().map(|mesh| path(PartKind::Mesh(*mesh)));
+            let meshes = block.laws.meshes.iter().map(|mesh| path(self.kind_of_row(*mesh)));
             let component = |drag: &usize| PartKind::Component(case.flow.drags()[*drag].component);
             let components = block.laws.drags.iter().map(component).map(path);
             TorqueBlock {

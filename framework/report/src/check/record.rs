@@ -5,7 +5,7 @@ use gearloss_framework::document::{Diagnostic, PlacedDiagnostic, Severity, Sourc
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::{Evidence, Package};
-use gearloss_framework::transmission::{CrossedStage, Stage, TorqueOrder, Transmission};
+use gearloss_framework::transmission::{ChainStage, CrossedStage, Stage, TorqueOrder, Transmission};
 use gearloss_studies::analyses::Work;
 use gearloss_studies::bearings::{BearingCard, bearing_cards};
 use gearloss_studies::checked::CheckedGearbox;
@@ -86,6 +86,9 @@ struct BuiltRecord {
     /// Geometry of every mesh of gears on axes that cross; absent without such meshes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     crossed_stages: Vec<CrossedStage>,
+    /// Derived geometry of every chain and belt over wheels with teeth; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    chains: Vec<ChainStage>,
     /// Bearings, with their worst values at the rated torque and speed.
     bearings: Vec<BearingCard>,
     /// Opposed bearings that load each other by induced thrust or a spring.
@@ -285,6 +288,7 @@ impl BuiltRecord {
             gear_states: t.states().iter().map(|state| state.name.clone()).collect(),
             stages: t.stages().collect(),
             crossed_stages: t.crossed_stages().collect(),
+            chains: t.chain_stages().collect(),
             bearings: bearing_cards(&checked),
             bearing_pairs: pair_cards(t, resolved),
             oil,

@@ -8,7 +8,7 @@ use gearloss_framework::language::Language;
 use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::registry::Package;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::transmission::{PartInfo, Port, CrossedStage, Stage, Transmission};
+use gearloss_framework::transmission::{CrossedStage, PartInfo, Port, Stage, Transmission};
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::{RPM, tidy};
 use gearloss_studies::pairs::{PreloadRecord, preload_records};

@@ -18,6 +18,8 @@ pub(super) const ARROW: f64 = 34.0;
 const AIR: f64 = 6.0;
 /// Width of the box of a differential. \[px\]
 pub(super) const AXLE: f64 = 44.0;
+/// Width of a chain and its wheels. \[px\]
+pub(super) const CHAIN: f64 = 10.0;
 
 /// Positions along the shafts.
 #[derive(Debug, Default)]
@@ -146,6 +148,13 @@ impl Work<'_> {
             if !wheel.ring {
                 self.extend(wheel.member, face);
                 self.take(wheel.member, face);
+            }
+        }
+        for chain in &things.chains {
+            let x = chain.at * self.scale;
+            for member in chain.members {
+                self.extend(member, [x - 0.5 * CHAIN, x + 0.5 * CHAIN]);
+                self.take(member, [x - 0.5 * CHAIN, x + 0.5 * CHAIN]);
             }
         }
         for (i, part) in things.parts.iter().enumerate() {

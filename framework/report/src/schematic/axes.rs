@@ -2,7 +2,7 @@
 
 mod orbits;
 
-use super::along::{ARROW, Along, width};
+use super::along::{ARROW, Along, CHAIN, width};
 use super::canvas::Rect;
 use super::things::{Part, Symbol, Things};
 use orbits::{fit_rings, orbits};
@@ -115,6 +115,12 @@ fn rows(things: &Things, along: &Along, scale: f64, axes: &Axes) -> Vec<Row> {
     for ((_, member), (end, side)) in things.ports.iter().zip(&along.ends) {
         let x = [*end, end + side * (ARROW + 60.0)];
         rows[things.members[*member].line].soft.push(Rect::new(x, [-9.0, 9.0]));
+    }
+    for chain in &things.chains {
+        for (member, radius) in chain.members.into_iter().zip(chain.radii) {
+            let room = Rect::about(chain.at * scale, 0.0, CHAIN, 2.0 * (radius * scale).max(6.0));
+            rows[things.members[member].line].hard.push(room);
+        }
     }
     for (i, axle) in things.axles.iter().enumerate() {
         let room = Rect::about(along.axles[i], 0.0, 44.0, 60.0);

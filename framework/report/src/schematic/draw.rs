@@ -3,10 +3,10 @@
 mod gears;
 mod parts;
 
-use super::along::{ARROW, AXLE, Along};
+use super::along::{ARROW, AXLE, Along, CHAIN};
 use super::axes::{Axes, thickness};
 use super::canvas::{Canvas, Rect, Voice};
-use super::things::{Kind, Things};
+use super::things::{Kind, Strand, Things};
 
 // Colours of Okabe and Ito, light inside and dark at the edge; every symbol also has its own shape. Pages give the classes dark colours.
 pub(super) const FIXED: &str = "class=\"fixed\" fill=\"#cfe6f5\" stroke=\"#0072b2\" stroke-width=\"1.3\"";
@@ -14,9 +14,11 @@ pub(super) const LOOSE: &str = "class=\"loose\" fill=\"#fbe6bd\" stroke=\"#a06a0
 pub(super) const SHAFT: &str = "class=\"shaft\" fill=\"#d5d5d5\" stroke=\"#444\" stroke-width=\"0.9\"";
 const GROUND: &str = "class=\"line\" fill=\"none\" stroke=\"#555\" stroke-width=\"1\"";
 const BOX: &str = "class=\"box\" fill=\"#f6f6f6\" stroke=\"#444\" stroke-width=\"1.2\"";
-pub(super) const CENTRE: &str = "class=\"line\" fill=\"none\" stroke=\"#999\" stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\"";
+pub(super) const CENTRE: &str =
+    "class=\"line\" fill=\"none\" stroke=\"#999\" stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\"";
 const MESH: &str = "class=\"mesh\" fill=\"none\" stroke=\"#8a3f6b\" stroke-width=\"1.8\" stroke-dasharray=\"1.5 4\" stroke-linecap=\"round\"";
 pub(super) const PORT: &str = "class=\"port\" fill=\"#000\" stroke=\"#000\" stroke-width=\"1.6\"";
+const STRAND: &str = "class=\"mesh\" fill=\"none\" stroke=\"#8a3f6b\" stroke-width=\"1.4\"";
 const DASHED: &str = " stroke-dasharray=\"4 2.5\"";
 
 /// Half the thickness of a planet's pin. \[px\]
@@ -68,6 +70,9 @@ pub(super) fn draw_all(canvas: &mut Canvas, things: &Things, along: &Along, axes
     draw.apart();
     for axle in 0..things.axles.len() {
         draw.axle(axle);
+    }
+    for chain in &things.chains {
+        draw.chain(chain);
     }
     for part in 0..things.parts.len() {
         draw.part(part);
@@ -151,6 +156,29 @@ impl Draw<'_> {
         self.canvas.close();
         self.canvas.avoid(room);
         self.canvas.word(axle.id.clone(), room, None, Voice::Plain);
+    }
+
+    /// Two wheels with the strands between their axes, which the unfolded view does not show at their distance.
+    fn chain(&mut self, chain: &Strand) {
+        let x = chain.at * self.scale;
+        let heights = chain.members.map(|member| self.axes.height(self.things, member));
+        let names = chain.members.map(|member| self.things.members[member].name.as_str());
+        let tip = format!("{}: {}, from {} to {}", chain.id, chain.what, names[0], names[1]);
+        self.canvas.open(&format!("chains.{}", chain.id), &tip);
+        for side in SIDES {
+            let strand = x + side * 0.5 * CHAIN;
+            self.canvas.line(&[[strand, heights[0]], [strand, heights[1]]], STRAND);
+        }
+        let wheels = [0, 1].map(|i| Rect::about(x, heights[i], CHAIN, 2.0 * (chain.radii[i] * self.scale).max(6.0)));
+        for wheel in &wheels {
+            self.canvas.rect(wheel, FIXED);
+        }
+        self.canvas.close();
+        for wheel in wheels {
+            self.canvas.shade(wheel);
+        }
+        self.canvas
+            .word(chain.id.clone(), wheels[0], Some(wheels[0]), Voice::Plain);
     }
 
     /// An arrow: into the gearbox at the reference port, out of it at the others.

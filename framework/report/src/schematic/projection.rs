@@ -138,7 +138,11 @@ fn foot(canvas: &mut Canvas, scale: f64) {
         "class=\"line\" fill=\"none\" stroke=\"#000\" stroke-width=\"1.5\"",
     );
     canvas.foot(length + 8.0, y + 1.0, &format!("{} mm", 1e3 * bar));
-    canvas.foot(0.0, y + 22.0, "Blue gears are fixed to their shaft, amber gears turn freely on it.");
+    canvas.foot(
+        0.0,
+        y + 22.0,
+        "Blue gears are fixed to their shaft, amber gears turn freely on it.",
+    );
 }
 
 /// All bodies, shafts first.
@@ -146,10 +150,10 @@ fn solids<'a>(transmission: &'a Transmission, things: &Things) -> Vec<Solid<'a>>
     let axes = transmission.axes();
     let largest = things.wheels.iter().map(|wheel| wheel.radius).fold(0.0, f64::max);
     let thin = THIN * largest.max(0.02);
-    let gears: Vec<Body> = (0..things.wheels.len()).map(|i| gear(transmission, things, i)).collect();
-    let parts: Vec<Option<Body>> = (things.parts.iter())
-        .map(|own| part(own, thin))
+    let gears: Vec<Body> = (0..things.wheels.len())
+        .map(|i| gear(transmission, things, i))
         .collect();
+    let parts: Vec<Option<Body>> = (things.parts.iter()).map(|own| part(own, thin)).collect();
     let mut solids = Vec::new();
     for (member, axis) in axes.iter().enumerate() {
         if things.members[member].kind != Kind::Shaft {
@@ -158,8 +162,11 @@ fn solids<'a>(transmission: &'a Transmission, things: &Things) -> Vec<Solid<'a>>
         let of_gears = things.wheels.iter().zip(&gears);
         let of_gears = of_gears.filter(|(wheel, _)| things.shaft_of(wheel.member) == member);
         let of_parts = things.parts.iter().zip(&parts);
-        let of_parts = of_parts.filter(|(own, _)| own.between.into_iter().flatten().any(|m| things.shaft_of(m) == member));
-        let bodies = of_gears.map(|(_, body)| *body).chain(of_parts.filter_map(|(_, body)| *body));
+        let of_parts =
+            of_parts.filter(|(own, _)| own.between.into_iter().flatten().any(|m| things.shaft_of(m) == member));
+        let bodies = of_gears
+            .map(|(_, body)| *body)
+            .chain(of_parts.filter_map(|(_, body)| *body));
         let ends = bodies.fold([f64::INFINITY, f64::NEG_INFINITY], |ends, body| {
             [
                 body.ends.into_iter().fold(ends[0], f64::min),
@@ -200,7 +207,10 @@ fn gear(transmission: &Transmission, things: &Things, number: usize) -> Body {
     match cone.filter(|_| seat.tip_at != seat.at) {
         Some((angle, along)) => Body {
             ends: [seat.tip_at, seat.tip_at - along * wheel.width * angle.cos()],
-            radii: [wheel.radius, (wheel.radius - wheel.width * angle.sin()).max(0.1 * wheel.radius)],
+            radii: [
+                wheel.radius,
+                (wheel.radius - wheel.width * angle.sin()).max(0.1 * wheel.radius),
+            ],
         },
         None => Body {
             ends: [wheel.at - 0.5 * wheel.width, wheel.at + 0.5 * wheel.width],
@@ -271,7 +281,10 @@ impl Page<'_> {
             What::Gear(number) => {
                 let wheel = &things.wheels[number];
                 let loose = matches!(things.members[wheel.member].kind, Kind::Loose(_));
-                self.canvas.open(&format!("gears.{}", wheel.id), &format!("{}: z = {}", wheel.id, wheel.z));
+                self.canvas.open(
+                    &format!("gears.{}", wheel.id),
+                    &format!("{}: z = {}", wheel.id, wheel.z),
+                );
                 self.canvas.shape(&corners, if loose { LOOSE } else { FIXED });
                 self.canvas.close();
                 self.canvas.shade(room);
@@ -292,7 +305,8 @@ impl Page<'_> {
                 }
                 self.canvas.close();
                 self.canvas.avoid(room);
-                self.canvas.word(draw::label(&own.id, own.count), room, None, Voice::Plain);
+                self.canvas
+                    .word(draw::label(&own.id, own.count), room, None, Voice::Plain);
             }
         }
     }
@@ -318,23 +332,36 @@ impl Page<'_> {
     fn port(&mut self, number: usize, solids: &[Solid<'_>], place: &dyn Fn([f64; 3]) -> [f64; 2]) {
         let (name, member) = &self.things.ports[number];
         let shaft = self.things.shaft_of(*member);
-        let Some(solid) = solids.iter().find(|solid| matches!(solid.what, What::Shaft(own) if own == shaft)) else {
+        let Some(solid) = solids
+            .iter()
+            .find(|solid| matches!(solid.what, What::Shaft(own) if own == shaft))
+        else {
             return;
         };
         let axis = &self.axes[shaft];
         let direction = axis.direction();
         let flat = direction[self.view.right].hypot(direction[self.view.up]);
-        self.canvas.open(&format!("ports.{name}"), &format!("port {name} at {}", self.things.members[*member].name));
+        self.canvas.open(
+            &format!("ports.{name}"),
+            &format!("port {name} at {}", self.things.members[*member].name),
+        );
         let room = if flat < 0.2 {
             let [x, y] = place(axis.point(solid.body.ends[1]));
             let radius = solid.body.radii[0] * self.scale + 4.0;
-            self.canvas.circle([x, y], radius, "class=\"line\" fill=\"none\" stroke=\"#000\" stroke-width=\"1.6\"");
+            self.canvas.circle(
+                [x, y],
+                radius,
+                "class=\"line\" fill=\"none\" stroke=\"#000\" stroke-width=\"1.6\"",
+            );
             Rect::about(x, y, 2.0 * radius, 2.0 * radius)
         } else {
             let outer = self.outer_end(shaft, solids);
             let [x, y] = place(axis.point(solid.body.ends[outer]));
             let side = if outer == 0 { -1.0 } else { 1.0 };
-            let way = [side * direction[self.view.right] / flat, -side * direction[self.view.up] / flat];
+            let way = [
+                side * direction[self.view.right] / flat,
+                -side * direction[self.view.up] / flat,
+            ];
             let far = [x + ARROW * way[0], y + ARROW * way[1]];
             let (tail, tip) = if number == self.things.reference {
                 (far, [x, y])

@@ -5,7 +5,7 @@ mod read;
 use serde_json::Value;
 
 use gearloss_framework::transmission::Transmission;
-use read::{axles, members, parts, spread, wheels};
+use read::{axles, chains, members, parts, spread, wheels};
 
 /// The support of a member.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,6 +95,19 @@ pub(super) struct Axle {
     pub sides: [usize; 2],
 }
 
+/// A chain or belt.
+#[derive(Debug)]
+pub(super) struct Strand {
+    pub id: String,
+    pub members: [usize; 2],
+    /// Position along the shafts. \[m\]
+    pub at: f64,
+    /// Radii of both wheels; a usual one if they are not known. \[m\]
+    pub radii: [f64; 2],
+    /// What it is, with its teeth or ratio.
+    pub what: String,
+}
+
 /// Everything that is drawn.
 #[derive(Debug)]
 pub(super) struct Things {
@@ -104,6 +117,7 @@ pub(super) struct Things {
     pub contacts: Vec<Contact>,
     pub parts: Vec<Part>,
     pub axles: Vec<Axle>,
+    pub chains: Vec<Strand>,
     /// Name and member.
     pub ports: Vec<(String, usize)>,
     pub reference: usize,
@@ -128,9 +142,11 @@ impl Things {
         spread(&mut wheels, &contacts, &members);
         let parts = parts(&members, &wheels, resolved);
         let axles = axles(&members, resolved);
+        let chains = chains(&members, resolved);
         Self {
             parts,
             axles,
+            chains,
             members,
             lines,
             wheels,

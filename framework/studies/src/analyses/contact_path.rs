@@ -276,9 +276,16 @@ impl ContactPathEntry {
 
     /// The error that there is no such mesh.
     fn not_found(&self, cx: &Planner<'_>, t: &Transmission) -> Stopped {
-        let names = t.cylindrical_meshes().map(|(_, path, _)| path.trim_start_matches("meshes."));
+        let names = t
+            .cylindrical_meshes()
+            .map(|(_, path, _)| path.trim_start_matches("meshes."));
         let names: Vec<&str> = names.collect();
-        cx.found(vec![dangling(&format!("{}.mesh", cx.path()), "mesh", &self.mesh, &names)])
+        cx.found(vec![dangling(
+            &format!("{}.mesh", cx.path()),
+            "mesh",
+            &self.mesh,
+            &names,
+        )])
     }
 
     /// The points on the path of a mesh at one operating point, and the reason if there is no friction.

@@ -56,8 +56,8 @@ impl From<[f64; 6]> for Sums {
 /// Index of the sum of a term of a mechanism.
 pub fn sum_of(mechanism: &str, load_dependent: bool) -> usize {
     match (mechanism, load_dependent) {
-        ("gear_mesh" | "gear_drag" | "planetary_drag", true) => 0,
-        ("gear_mesh" | "gear_drag" | "planetary_drag", false) => 1,
+        ("gear_mesh" | "gear_drag" | "planetary_drag" | "differential", true) => 0,
+        ("gear_mesh" | "gear_drag" | "planetary_drag" | "differential", false) => 1,
         ("bearing", true) => 2,
         ("bearing", false) => 3,
         ("seal", _) => 4,

@@ -21,7 +21,7 @@ use gearloss_framework::files::{Disk, LONGEST_DATA, LONGEST_TEXT, SharedSource};
 use gearloss_framework::gearbox::{DocumentKind, Findings, Gearbox, other_kind};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved, called_own, expand_set, meets, sets_of};
-use gearloss_framework::transmission::{Case, Transmission, WHEELS};
+use gearloss_framework::transmission::{Case, Transmission, WHEEL_SPEEDS, WHEELS};
 
 /// A study as read, with its gearboxes. Copies share what is read, because each analysis has one.
 #[derive(Clone)]
@@ -245,6 +245,8 @@ impl Study {
             .wheels
             .iter()
             .map(|ports| (WHEELS.to_owned(), ports.clone().into()));
+        let speeds = conditions.wheel_speeds.iter();
+        let speeds = speeds.map(|speeds| (WHEEL_SPEEDS.to_owned(), speeds.clone().into()));
         let changes = conditions
             .set
             .iter()
@@ -252,7 +254,7 @@ impl Study {
         Choice {
             set: set.filter(|set| *set != OWN_MODELS).map(str::to_owned),
             sets: Map::clone(&self.sets),
-            overrides: wheels.chain(changes).collect(),
+            overrides: wheels.chain(speeds).chain(changes).collect(),
         }
     }
 
@@ -277,7 +279,10 @@ impl Study {
             let replaced = |finding: &Diagnostic| {
                 let changed = changes.iter().find(|(path, _)| meets(path, &finding.path));
                 let set = self.entry.conditions.set.ids().find(|path| meets(path, &finding.path));
-                let wheels = finding.path == WHEELS || finding.path.starts_with("wheels.");
+                let conditions = &self.entry.conditions;
+                let wheels = (finding.path == WHEELS || finding.path.starts_with("wheels."))
+                    && conditions.wheels.is_some()
+                    || finding.path == WHEEL_SPEEDS && conditions.wheel_speeds.is_some();
                 let in_own_set = self
                     .sets
                     .keys()
@@ -291,7 +296,7 @@ impl Study {
                 match (changed, set) {
                     (Some((path, place)), _) => Some(finding.clone().moved(place, path)),
                     (None, Some(path)) => Some(finding.clone().moved("conditions.set", path)),
-                    (None, None) if wheels && self.entry.conditions.wheels.is_some() => Some(Diagnostic {
+                    (None, None) if wheels => Some(Diagnostic {
                         path: format!("conditions.{}", finding.path),
                         spans: Vec::new(),
                         ..finding.clone()

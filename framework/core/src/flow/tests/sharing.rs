@@ -5,7 +5,7 @@ use super::*;
 /// case 0, left 1, right 2, difference 3.
 fn differential(zeta: f64) -> Rig {
     let mut rig = Rig::new(4).mesh(1, 1.0, 2, 1.0, Some(0), zeta);
-    rig.rows.push(Row::difference(1, 2, 3));
+    rig.rows.push(Row::difference((1, 1.0), (2, 1.0), 3));
     rig
 }
 

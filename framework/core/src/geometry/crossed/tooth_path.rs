@@ -96,9 +96,8 @@ impl ToothPath {
         // Means of 1/v, t/v and t^2/v over the distance t from the place of least sliding, v the sliding speed.
         let inverse = self.mean(|t| turning.logarithm(t));
         let first = self.mean(|t| turning.speed(t) / steepness);
-        let second = self.mean(|t| {
-            (t * turning.speed(t) - least.norm_squared() * turning.logarithm(t)) / (2.0 * steepness)
-        });
+        let second =
+            self.mean(|t| (t * turning.speed(t) - least.norm_squared() * turning.logarithm(t)) / (2.0 * steepness));
         let force = -(least * inverse + change * first);
         let weighted = least * (first + place * inverse) + change * (second + place * first);
         (force, -self.flank_normal.cross(&weighted))

@@ -188,7 +188,10 @@ fn forces_of_a_bevel_stage() {
     let teeth = CrossedTeeth::new(pair, [&axes[0], &axes[1]]);
     let close = |vector: Vector3<f64>, expected: [f64; 3]| {
         let expected = Vector3::from(expected);
-        assert!((vector - expected).norm() < 1e-12 * expected.norm(), "{vector} {expected}");
+        assert!(
+            (vector - expected).norm() < 1e-12 * expected.norm(),
+            "{vector} {expected}"
+        );
     };
     close(teeth.mean_point * 1e3, [76.493_327_681_3, 27.459_143_270_2, 0.0]);
     // The shaft pushes backwards, so the teeth push forwards.

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use super::{Axle, Contact, Kind, Member, Part, Symbol, Wheel};
+use super::{Axle, Contact, Kind, Member, Part, Strand, Symbol, Wheel};
 use gearloss_framework::transmission::Transmission;
 
 /// Axes that are closer are the same. \[m\]
@@ -173,7 +173,7 @@ fn trains(count: usize, contacts: &[Contact]) -> Vec<Vec<usize>> {
 }
 
 /// Sections of the framework that hold no components of mechanisms.
-const FRAMEWORK: [&str; 8] = [
+const FRAMEWORK: [&str; 9] = [
     "gears",
     "meshes",
     "bevel_meshes",
@@ -182,6 +182,7 @@ const FRAMEWORK: [&str; 8] = [
     "shafts",
     "planetary_sets",
     "differentials",
+    "chains",
 ];
 
 pub(super) fn parts(members: &[Member], wheels: &[Wheel], resolved: &Value) -> Vec<Part> {
@@ -247,6 +248,36 @@ pub(super) fn axles(members: &[Member], resolved: &Value) -> Vec<Axle> {
         })
     };
     section(resolved, "differentials")
+        .filter_map(|(id, entry)| read(id, entry))
+        .collect()
+}
+
+pub(super) fn chains(members: &[Member], resolved: &Value) -> Vec<Strand> {
+    let read = |id: &str, entry: &Map<String, Value>| {
+        let wheels = entry.get("wheels")?.as_array()?;
+        let [first, second] = [wheels.first()?.as_object()?, wheels.get(1)?.as_object()?];
+        let member = |wheel: &Map<String, Value>| {
+            members
+                .iter()
+                .position(|m| Some(m.name.as_str()) == text(wheel, "shaft"))
+        };
+        let kind = text(entry, "kind").unwrap_or("chain").replace('_', " ");
+        let teeth = number(first, "z").zip(number(second, "z"));
+        let pitch = number(entry, "pitch");
+        // The pulleys of a belt of variable ratio have no stated radius.
+        let radius = |z: f64| pitch.map_or(0.03, |pitch| z * pitch / std::f64::consts::TAU);
+        Some(Strand {
+            id: id.to_owned(),
+            members: [member(first)?, member(second)?],
+            at: number(first, "at").unwrap_or(0.0),
+            radii: teeth.map_or([0.03; 2], |(first, second)| [radius(first), radius(second)]),
+            what: match teeth {
+                Some((first, second)) => format!("{kind} over {first} and {second} teeth"),
+                None => kind,
+            },
+        })
+    };
+    section(resolved, "chains")
         .filter_map(|(id, entry)| read(id, entry))
         .collect()
 }

@@ -1,0 +1,4 @@
+//! Loss of joints between shafts at an angle.
+
+pub mod cross;
+pub mod efficiency;
