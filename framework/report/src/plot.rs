@@ -42,7 +42,7 @@ const MECHANISMS: [(&str, RGBColor); 12] = [
 ];
 
 /// Mechanisms of the components of a section of the gearbox.
-const SECTIONS: [(&str, &str); 11] = [
+const SECTIONS: [(&str, &str); 14] = [
     ("meshes", "gear_mesh"),
     ("bevel_meshes", "gear_mesh"),
     ("worm_meshes", "gear_mesh"),
