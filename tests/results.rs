@@ -28,7 +28,8 @@ const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 const OPEN: [&str; 6] = ["bound", "set", "terms_w", "value", "model", "limit_values"];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 8] = [
+const OPTIONAL: [&str; 9] = [
+    "crossed_stages",
     "data",
     "oil_network",
     "preloads",
@@ -113,6 +114,7 @@ fn points() -> Vec<Value> {
         ),
         solve(["tests/results/self_locking.yaml", "--speed", "-3000 rpm"], &[]),
         solve(["tests/results/oil_network.yaml", "--speed", "3000 rpm"], &[]),
+        solve(["tests/results/crossed_axes.yaml", "--speed", "1500 rpm"], &[]),
         solve(
             ["tests/trade/preloaded-bearings/gearbox.yaml", "--speed", "1500 rpm"],
             &[],
