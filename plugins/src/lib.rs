@@ -4,6 +4,7 @@
 
 pub mod auxiliary;
 pub mod bearing;
+pub mod bevel_mesh;
 pub mod boundary;
 pub mod catalogues;
 pub mod chain;
@@ -12,6 +13,7 @@ pub mod clutch;
 pub mod convection;
 pub mod cycles;
 pub mod differential;
+mod efficiency;
 pub mod gear_drag;
 pub mod gear_mesh;
 pub mod heat_dissipation;

@@ -3,6 +3,7 @@
 //! The registry adds the sections of mechanisms (`bearings`, `couplings`, `seals`, ... and those of other crates). All structs are
 //! read from the resolved document, in which every quantity is SI and every default is filled in.
 
+pub mod bevel_teeth;
 pub mod chains;
 pub mod crossed;
 pub mod gears;
@@ -19,6 +20,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+pub use bevel_teeth::{BevelAxes, BevelFault, BevelPair, BevelTeeth};
 pub use chains::{ChainEntry, JointEntry};
 pub use crossed::{
     BevelMeshEntry, CalculationPoint, CrossedHelicalMeshEntry, CutterEntry, CuttingMethod, DepthEntry, FlankAngles,

@@ -843,6 +843,18 @@ impl<R: Real> Notes<'_, R> {
         std::array::from_fn(|i| known[i])
     }
 
+    /// The same points without notes, for an evaluation whose result is not the final one.
+    #[inline(always)]
+    #[must_use]
+    pub fn muted(self) -> Self {
+        let book = Notebook {
+            cells: &[],
+            trace: None,
+            ..self.book
+        };
+        Self { book, ..self }
+    }
+
     /// The same notes of those points only at which a condition holds.
     #[inline(always)]
     #[must_use]

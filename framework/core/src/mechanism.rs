@@ -6,6 +6,7 @@
 mod answers;
 pub mod auxiliary;
 pub mod bearing;
+pub mod bevel_mesh;
 pub mod chain;
 pub mod clutch;
 pub(crate) mod differences;
@@ -17,6 +18,7 @@ pub mod heat_link;
 pub mod joint;
 mod law;
 pub mod mean_friction;
+mod mesh_law;
 pub mod planetary_drag;
 pub mod scalar;
 pub mod seal;

@@ -5,7 +5,9 @@ use crate::geometry::{LoadSharing, Pair, PathPoint};
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::Answers;
 use crate::mechanism::mean_friction::MeanFrictionAt;
-use crate::mechanism::tooth_friction::{KINKED, PathAt, PathExtent, PathNode, SMOOTH, ToothFrictionModel};
+use crate::mechanism::tooth_friction::{
+    FrictionLimits, KINKED, PathAt, PathExtent, PathNode, SMOOTH, ToothFrictionModel,
+};
 use crate::real::{Mask as _, Real};
 
 /// Points of most paths: four sections for a smooth law.
@@ -47,6 +49,8 @@ pub struct Path {
     weights: Vec<f64>,
     /// Their sum.
     weight: f64,
+    /// Arm of the friction force about the first axis per friction, by node; none for parallel axes. \[m\]
+    arms: Vec<f64>,
 }
 
 impl Path {
@@ -86,7 +90,7 @@ impl Path {
             .iter()
             .map(|p| PathNode {
                 weight: p.weight / pair.base_pitch,
-                first_faster: p.x > pair.points[2],
+                first_faster: pair.first_is_faster(p.x),
                 ..PathNode::new(
                     pair.sliding(p.x),
                     pair.sum_speed(p.x),
@@ -101,8 +105,19 @@ impl Path {
             points,
             weights: Vec::new(),
             weight: 0.0,
+            arms: Vec::new(),
         };
+        let path = path.with_arms(pair);
         path.weighted(|point| point.weight / pair.base_pitch)
+    }
+
+    /// The same with the arms of the friction force, if the axes are not parallel; for those its effect on the normal force is neglected.
+    fn with_arms(mut self, pair: &Pair) -> Self {
+        if let Some(motion) = &pair.crossed {
+            let arm = |p: &PathPoint| p.weight / pair.base_pitch * p.share * motion.friction_arm(p.x - pair.points[2]);
+            self.arms = self.points.iter().map(arm).collect();
+        }
+        self
     }
 
     /// The same with another average: the weight of each point, instead of the part of a base pitch that it represents.
@@ -167,6 +182,15 @@ impl Path {
         nodes.fold(R::ZERO, |sum, (weight, mu)| sum + *mu * *weight)
     }
 
+    /// Arm of the friction force about the first axis, for friction at each point; zero for parallel axes. \[m\]
+    #[inline(always)]
+    pub fn friction_arm<R: Real>(&self, mu: &[R], limits: Option<FrictionLimits>) -> R {
+        self.arms.iter().zip(mu).fold(R::ZERO, |sum, (arm, mu)| {
+            let mu = limits.map_or(*mu, |limits| limits.cut_off(*mu));
+            sum + mu * *arm
+        })
+    }
+
     /// The friction of a law over the path at an operating point, and where the law has a kink between the points.
     #[inline(always)]
     fn friction<R: Answers>(
@@ -175,17 +199,21 @@ impl Path {
         at: &PathAt<'_, R>,
         cut_off: Option<&CutOff>,
     ) -> Result<(PathFriction<R>, R::Mask), Undefined> {
-        let (sliding, along) = with_space(
+        let (sliding, arm, along) = with_space(
             self.len(),
             #[inline(always)]
             |mu| match cut_off {
-                None => R::along(law, at, mu).map(|along| (self.sliding(mu), along)),
-                Some(cut_off) => R::uncut_along(law, at, mu).map(|along| (cut_off.sliding(self, mu), along)),
+                None => R::along(law, at, mu).map(|along| (self.sliding(mu), self.friction_arm(mu, None), along)),
+                Some(cut_off) => R::uncut_along(law, at, mu).map(|along| {
+                    let arm = self.friction_arm(mu, law.friction_limits());
+                    (cut_off.sliding(self, mu), arm, along)
+                }),
             },
         )?;
         let friction = PathFriction {
             sliding,
             mean: sliding / self.weight,
+            arm,
             first_heat: along.first_heat,
         };
         Ok((friction, along.kink))
@@ -199,6 +227,9 @@ pub struct PathFriction<R = f64> {
     pub sliding: R,
     /// Friction weighted by load and sliding velocity. \[-\]
     pub mean: R,
+    /// Arm of the friction force about the axis of the first gear, by which it lowers the normal force for a torque of that gear; zero for
+    /// parallel axes, where it is neglected. \[m\]
+    pub arm: R,
     /// Share of the heat that enters the body of the first gear. \[-\]
     pub first_heat: R,
 }
@@ -266,6 +297,7 @@ impl FrictionPath {
         Ok(PathFriction {
             sliding: R::select(kink, many.sliding, few.sliding),
             mean: R::select(kink, many.mean, few.mean),
+            arm: R::select(kink, many.arm, few.arm),
             first_heat: R::select(kink, many.first_heat, few.first_heat),
         })
     }

@@ -5,7 +5,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::bevel_teeth::BevelTeeth;
 use super::gears::default_one;
+use crate::mechanism::ModelRef;
+use crate::mechanism::bevel_mesh::BevelMesh;
 
 /// A pair of bevel gears, or of hypoid gears if the axes do not intersect.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -13,37 +16,9 @@ pub struct BevelMeshEntry {
     /// Pinion and wheel.
     #[schemars(extend("x-refers-to" = "gears"))]
     pub gears: [String; 2],
-    /// Outer pitch diameter of the wheel d_e2; this or another size is stated. [mm]
-    #[schemars(range(min = 1.0, max = 1e4))]
-    pub outer_diameter: Option<f64>,
-    /// Outer transverse module m_et2: outer pitch diameter of the wheel over its number of teeth. [mm]
-    #[schemars(range(min = 0.05, max = 100.0))]
-    pub outer_module: Option<f64>,
-    /// Mean pitch diameter of the wheel d_m2. [mm]
-    #[schemars(range(min = 1.0, max = 1e4))]
-    pub mean_diameter: Option<f64>,
-    /// Mean spiral angle; zero for straight and zerol teeth. [deg]
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 60.0))]
-    pub spiral_angle: f64,
-    /// The gear that has this spiral angle; that of the other one of a hypoid pair follows.
-    #[serde(default)]
-    pub spiral_angle_of: SpiralAngleOf,
-    /// Pressure angles of both flanks.
-    #[serde(default)]
-    pub pressure_angle: FlankAngles,
-    /// How the cutter determines the pitch cones of a hypoid pair; default: `gleason`.
-    pub method: Option<CuttingMethod>,
-    /// Cutter of a hypoid pair.
-    pub cutter: Option<CutterEntry>,
-    /// Where the mean point is that method `gleason` finds from an outer diameter; default: `standard`.
-    pub calculation_point: Option<CalculationPoint>,
-    /// Pitch angle of the wheel of a hypoid pair from its drawing, instead of `cutter`. [deg]
-    #[schemars(range(min = 1.0, max = 90.0))]
-    pub wheel_pitch_angle: Option<f64>,
-    /// Tooth depth.
-    #[serde(default)]
-    pub depth: DepthEntry,
+    /// The teeth.
+    #[serde(flatten)]
+    pub teeth: BevelTeeth,
     /// Shaft angle; only compared with that of the axes. [deg]
     #[schemars(range(min = 0.0, max = 180.0))]
     pub shaft_angle: Option<f64>,
@@ -73,6 +48,8 @@ pub struct BevelMeshEntry {
     #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
+    /// Loss model of the mesh; default: that of `models`.
+    pub model: Option<ModelRef<BevelMesh>>,
 }
 
 /// A gear of a pair.

@@ -12,14 +12,18 @@
 
 mod blank;
 mod crossed_point;
+mod flank_pair;
 mod mean_point;
+mod motion;
 mod pitch_cones;
 mod tooth_path;
 mod virtual_pair;
 
 pub use blank::{Blank, Depth};
 pub use crossed_point::CrossedPoint;
+pub use flank_pair::TeethFault;
 pub use mean_point::{Flank, MeanPoint, ToothForce};
+pub use motion::{CrossedMotion, Velocity};
 pub use pitch_cones::{Closure, ConeFault, PitchCones, Size, SpiralAngle};
 pub use tooth_path::ToothPath;
 pub use virtual_pair::VirtualPair;

@@ -3,6 +3,7 @@
 //! Sources: ISO 21771; points on the line of action as in DIN 3990: T1, T2 tangent points, A first contact, E last contact
 //! when the first gear drives, B and D ends of double contact, C pitch point.
 
+use super::crossed::CrossedMotion;
 use super::involute::{inverse_involute, involute};
 use crate::real::Real;
 
@@ -263,6 +264,8 @@ fn impossible_contact(
 pub struct Pair {
     /// False for pitch circles only, see [`Pair::schematic`].
     pub involute: bool,
+    /// Motion of the flanks of bevel and hypoid gears, see [`Pair::bevel`]; `None` for parallel axes.
+    pub crossed: Option<CrossedMotion>,
     /// Numbers of teeth.
     pub z: [u32; 2],
     /// The second gear is a ring.
@@ -411,6 +414,7 @@ impl Pair {
         let working_radius = [centre_distance * z1 / teeth, centre_distance * z2 / teeth];
         let mut pair = Self {
             involute: involute_pair,
+            crossed: None,
             z: spec.z,
             internal: spec.internal,
             normal_module: m,
@@ -466,18 +470,51 @@ impl Pair {
     /// Radius of relative curvature in the normal plane. \[m\]
     pub fn relative_radius(&self, x: f64) -> f64 {
         let [rho1, rho2] = self.curvature(x);
-        rho1 * rho2 / (rho2 + self.sign() * rho1) / self.base_helix.cos()
+        let cylindrical = rho1 * rho2 / (rho2 + self.sign() * rho1) / self.base_helix.cos();
+        match &self.crossed {
+            None => cylindrical,
+            Some(motion) => cylindrical * motion.radius_factor,
+        }
     }
 
     /// Sliding speed per speed of the first gear. \[m\]
     pub fn sliding(&self, x: f64) -> f64 {
-        (1.0 + self.sign() / self.ratio()) * (x - self.points[2]).abs()
+        let from_pitch = x - self.points[2];
+        match &self.crossed {
+            None => (1.0 + self.sign() / self.ratio()) * from_pitch.abs(),
+            Some(motion) => motion.sliding_speed(from_pitch),
+        }
     }
 
-    /// Sum of the surface speeds per speed of the first gear. \[m\]
+    /// Sliding speed along the teeth per speed of the first gear, which only gears with an offset of their axes have; it is a vector, the same
+    /// on the whole path, to which that of the profile is added. \[m\]
+    pub fn lengthwise_sliding(&self) -> f64 {
+        self.crossed.as_ref().map_or(0.0, CrossedMotion::lengthwise)
+    }
+
+    /// Sum of the surface speeds across the line of contact per speed of the first gear. \[m\]
     pub fn sum_speed(&self, x: f64) -> f64 {
-        let [rho1, rho2] = self.curvature(x);
-        rho1 + rho2 / self.ratio()
+        match &self.crossed {
+            None => {
+                let [rho1, rho2] = self.curvature(x);
+                rho1 + rho2 / self.ratio()
+            }
+            Some(motion) => {
+                let [first, second] = motion.rolling(x - self.points[2]);
+                (first + second).abs()
+            }
+        }
+    }
+
+    /// True where the flank of the first gear is the faster one.
+    pub fn first_is_faster(&self, x: f64) -> bool {
+        match &self.crossed {
+            None => x > self.points[2],
+            Some(motion) => {
+                let [first, second] = motion.rolling(x - self.points[2]);
+                first.abs() > second.abs()
+            }
+        }
     }
 
     /// Normal tooth width at the tip of an external gear. \[m\]

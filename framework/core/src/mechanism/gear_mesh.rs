@@ -9,57 +9,24 @@ use crate::description::gears::ShiftSign;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::loss::{Loss, Term, Undefined};
 use crate::lubricant::Lubricant;
-use crate::mechanism::{Answers, Mechanism, Scalar};
-use crate::real::{Dual, Lane, Mask as _, Points as _, Real};
+use crate::mechanism::Mechanism;
+use crate::mechanism::mesh_law::mesh_laws;
+use crate::real::{Mask as _, Real};
 use crate::{answered_by, context};
 
 /// Marker of the mechanism; never constructed.
 #[derive(Debug)]
 pub enum GearMesh {}
 
-/// Loss of one pair of gears in mesh. A model returns powers in the frame of the carrier.
-///
-/// The inputs are [`GearMeshAt`], which documents each quantity with unit, source and tested range, and the part in it.
-pub trait GearMeshModel: Send + Sync {
-    /// Loss at one operating point. Pure; must not allocate.
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined>;
-
-    /// The losses at several points together; written by a [law](GearMeshLaw). An error has them evaluated one by one.
+mesh_laws! {
+    GearMesh, GearMeshAt,
+    /// Loss of one pair of gears in mesh. A model returns powers in the frame of the carrier.
     ///
-    /// # Errors
-    /// As [`Mechanism::answer_together`].
-    fn losses(&self, _at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
-        Err(Undefined::DISAGREED)
-    }
-
-    /// The loss with its derivatives; written by a [law](GearMeshLaw). `None` has them found by differences.
-    fn loss_with_derivatives(&self, _at: &GearMeshAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
-        None
-    }
-}
-
-/// A model of gear meshes that is written once for one point and for several; mark `loss` as `#[inline(always)]`, so that it uses
-/// wide instructions.
-pub trait GearMeshLaw: Send + Sync {
-    /// Loss at one operating point, or at several. Pure; must not allocate.
-    fn loss<R: Answers>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined>;
-}
-
-impl<L: GearMeshLaw> GearMeshModel for L {
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
-        GearMeshLaw::loss(self, at)
-    }
-
-    fn losses(&self, at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
-        Lane::wide(
-            #[inline(always)]
-            || GearMeshLaw::loss(self, at),
-        )
-    }
-
-    fn loss_with_derivatives(&self, at: &GearMeshAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
-        Some(GearMeshLaw::loss(self, at))
-    }
+    /// The inputs are [`GearMeshAt`], which documents each quantity with unit, source and tested range, and the part in it.
+    GearMeshModel,
+    /// A model of gear meshes that is written once for one point and for several; mark `loss` as `#[inline(always)]`, so that it uses
+    /// wide instructions.
+    GearMeshLaw
 }
 
 /// A pair of gears as written for a single model; in a gearbox the framework fills it from `gears` and `meshes`.
@@ -306,21 +273,6 @@ facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], ra: [0.4 um, 0.4 um], r
     type Model = dyn GearMeshModel;
 
     answered_by!(loss, losses, loss_with_derivatives);
-}
-
-impl GearMeshModel for Scalar<GearMesh> {
-    fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
-        self.power(at)
-    }
-
-    fn losses(&self, at: &GearMeshAt<'_, Lane>) -> Result<Loss<Lane>, Undefined> {
-        Ok(Loss::POWERS.with(&GearMesh::TOTAL, self.values(at)?))
-    }
-
-    fn loss_with_derivatives(&self, _at: &GearMeshAt<'_, Dual>) -> Option<Result<Loss<Dual>, Undefined>> {
-        let value = self.constant()?;
-        Some(Ok(Loss::POWERS.with(&GearMesh::TOTAL, Dual::constant(value))))
-    }
 }
 
 crate::register_mechanism!(GearMesh);

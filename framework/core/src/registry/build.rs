@@ -315,14 +315,14 @@ impl<'a> Build<'a> {
         built
     }
 
-    /// Builds the model of a nested slot for another part.
+    /// Builds the model of a nested slot for another part, which may be that of another mechanism.
     ///
     /// # Errors
     /// As [`Build::slot`].
-    pub fn slot_of<M: Mechanism>(
+    pub fn slot_of<M: Mechanism, P: Any + Send + Sync>(
         &mut self,
         key: &str,
-        part: &Arc<M::Part>,
+        part: &Arc<P>,
         slot: &ModelRef<M>,
     ) -> Result<Slot<M>, Diagnostic> {
         let outer = self.part.replace(Arc::clone(part) as Arc<dyn Any + Send + Sync>);

@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::axis::Axis;
+use crate::geometry::Pair;
 use crate::geometry::crossed::{Blank, Flank, MeanPoint, PitchCones, ToothPath, VirtualPair};
 
 /// Kind of a pair on axes that cross.
@@ -45,6 +46,8 @@ pub struct CrossedTeeth {
     pub frame: MeanPoint,
     /// Dimensions of bevel gears.
     pub blank: Option<Blank>,
+    /// Drive and coast flanks of bevel gears as pairs of surfaces.
+    pub pairs: Option<[Pair; 2]>,
     /// Normal pressure angles of the drive and the coast flank. \[rad\]
     pub pressure_angle: [f64; 2],
     /// True if the pinion has the left hand, so that the pair is the mirror image of the frame.
@@ -94,6 +97,7 @@ pub(super) struct Unplaced {
     pub kind: CrossedKind,
     pub cones: PitchCones,
     pub blank: Option<Blank>,
+    pub pairs: Option<[Pair; 2]>,
     /// Pressure angles of the cutter and the share of the limit pressure angle in it. \[rad\]
     pub pressure_angle: [f64; 2],
     pub limit_factor: f64,
@@ -134,6 +138,7 @@ impl CrossedTeeth {
             kind,
             cones,
             blank,
+            pairs,
             pressure_angle,
             limit_factor,
             left,
@@ -203,6 +208,7 @@ impl CrossedTeeth {
             cones,
             frame,
             blank,
+            pairs,
             pressure_angle,
             left,
             mean_point,

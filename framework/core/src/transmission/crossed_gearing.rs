@@ -9,20 +9,15 @@ use super::gearing::Gearing;
 use super::seats::{MeshSeat, Teeth};
 use crate::codes;
 use crate::description::gears::{Faces, Hand};
-use crate::description::{
-    BevelMeshEntry, CalculationPoint, CrossedHelicalMeshEntry, CuttingMethod, GearKind, SpiralAngleOf, WormMeshEntry,
-};
+use crate::description::{BevelAxes, BevelFault, BevelMeshEntry, CrossedHelicalMeshEntry, GearKind, WormMeshEntry};
 use crate::document::Diagnostic;
-use crate::geometry::crossed::{Blank, Closure, Depth, MeanPoint, PitchCones, Size, SpiralAngle};
+use crate::geometry::crossed::{Blank, MeanPoint, PitchCones};
 
 /// Largest difference between a stated length and the one that follows. \[m\]
 const LENGTH: f64 = 1e-5;
 
 /// Largest difference between a stated angle and the one that follows. \[rad\]
 const ANGLE: f64 = 0.01 * PI / 180.0;
-
-/// Offset below which axes intersect: rounding. \[m\]
-const INTERSECTS: f64 = 1e-9;
 
 /// Two gears with the axes of their shafts.
 struct OnAxes {
@@ -147,6 +142,12 @@ impl Gearing<'_> {
             bodies,
             axes: [first, second],
         })
+    }
+
+    /// An error in the teeth of a bevel mesh.
+    fn no_pair(&mut self, path: &str, fault: BevelFault) -> Option<MeshSeat> {
+        let path = fault.key.map_or_else(|| path.to_owned(), |key| format!("{path}.{key}"));
+        self.impossible(path, fault.message, fault.help)
     }
 
     /// An error in a mesh.
@@ -285,7 +286,7 @@ impl Gearing<'_> {
 
     fn bevel(&mut self, path: String, mesh: &BevelMeshEntry) -> Option<MeshSeat> {
         let on = self.on_axes(&path, &mesh.gears, CrossedKind::Bevel)?;
-        let left = self.is_left(&path, on.gears, mesh.spiral_angle != 0.0, true)?;
+        let left = self.is_left(&path, on.gears, mesh.teeth.spiral_angle != 0.0, true)?;
         let along = on.gears.map(|gear| match self.entry.gears.0[gear].1.faces {
             None | Some(Faces::Start) => 1.0,
             Some(Faces::End) => -1.0,
@@ -320,8 +321,18 @@ impl Gearing<'_> {
         let facewidth = self.gears[on.gears[1]].facewidth;
         // The frame of a right-hand pinion has a positive offset where that along the product of the axes is negative.
         let offset = if left { signed } else { -signed };
-        let cones = self.pitch_cones(&path, mesh, z, (shaft_angle, offset), facewidth)?;
-        if cones.offset < 0.0 && mesh.spiral_angle != 0.0 {
+        let on_axes = BevelAxes {
+            z,
+            shaft_angle,
+            offset,
+            facewidth,
+        };
+        let teeth = &mesh.teeth;
+        let cones = match teeth.pitch_cones(&on_axes) {
+            Ok(cones) => cones,
+            Err(fault) => return self.no_pair(&path, fault),
+        };
+        if cones.offset < 0.0 && mesh.teeth.spiral_angle != 0.0 {
             self.warnings.push(
                 Diagnostic::warning(
                     path.clone(),
@@ -335,18 +346,7 @@ impl Gearing<'_> {
                 .help("usually the pinion has the larger one: check `hand` and the axes"),
             );
         }
-        let ratio = cones.ratio();
-        let depth = Depth {
-            working: mesh.depth.working,
-            clearance: mesh.depth.clearance,
-            wheel_addendum: mesh.depth.wheel_addendum.unwrap_or(0.21 + 0.29 / (ratio * ratio)),
-            addendum_angle: mesh.depth.addendum_angle,
-            dedendum_angle: mesh.depth.dedendum_angle,
-        };
-        let outer = mesh
-            .outer_diameter
-            .or(mesh.outer_module.map(|module| module * f64::from(z[1])));
-        let blank = Blank::new(&cones, &depth, facewidth, outer);
+        let blank = teeth.blank(&cones, &on_axes);
         if !is_sound(&cones, &blank) {
             return self.impossible(
                 path,
@@ -354,11 +354,16 @@ impl Gearing<'_> {
                 "check size, facewidth, spiral angle, depth and axes",
             );
         }
-        let angles = &mesh.pressure_angle;
+        let flanks = match teeth.flanks(&cones, &blank) {
+            Ok(flanks) => flanks,
+            Err(fault) => return self.no_pair(&path, fault),
+        };
+        let angles = &teeth.pressure_angle;
         let pair = Unplaced {
             kind: CrossedKind::Bevel,
             cones,
             blank: Some(blank),
+            pairs: Some(flanks),
             pressure_angle: [angles.drive, angles.coast],
             limit_factor: angles.limit_factor,
             left,
@@ -372,106 +377,6 @@ impl Gearing<'_> {
             }
         }
         Some(seat)
-    }
-
-    /// The pitch cones of a bevel or hypoid pair; `None` with an error.
-    fn pitch_cones(
-        &mut self,
-        path: &str,
-        mesh: &BevelMeshEntry,
-        z: [u32; 2],
-        (shaft_angle, offset): (f64, f64),
-        facewidth: f64,
-    ) -> Option<PitchCones> {
-        let sizes = [
-            mesh.outer_diameter.is_some(),
-            mesh.outer_module.is_some(),
-            mesh.mean_diameter.is_some(),
-        ];
-        if sizes.into_iter().filter(|stated| *stated).count() != 1 {
-            self.impossible(
-                path.to_owned(),
-                "the size of the wheel is stated not once".to_owned(),
-                "state one of `outer_diameter`, `outer_module` and `mean_diameter`",
-            );
-            return None;
-        }
-        let outer = mesh
-            .outer_diameter
-            .or(mesh.outer_module.map(|module| module * f64::from(z[1])));
-        let intersect = offset.abs() <= INTERSECTS;
-        let of_hypoid = [
-            ("method", mesh.method.is_some()),
-            ("cutter", mesh.cutter.is_some()),
-            ("calculation_point", mesh.calculation_point.is_some()),
-            ("wheel_pitch_angle", mesh.wheel_pitch_angle.is_some()),
-        ];
-        if intersect {
-            if let Some((key, _)) = of_hypoid.iter().find(|(_, stated)| *stated) {
-                self.impossible(
-                    format!("{path}.{key}"),
-                    "the axes intersect, so the pitch cones follow from the teeth".to_owned(),
-                    "remove it, or give the shafts an offset",
-                );
-                return None;
-            }
-            let size = match (outer, mesh.mean_diameter) {
-                (Some(outer), _) => Size::Outer(outer),
-                (None, mean) => Size::Mean(mean?),
-            };
-            return Some(PitchCones::bevel(z, shaft_angle, size, facewidth, mesh.spiral_angle));
-        }
-        let method = mesh.method.unwrap_or_default();
-        let closure = match (mesh.cutter, mesh.wheel_pitch_angle) {
-            (Some(cutter), None) if method == CuttingMethod::Gleason => Closure::LimitRadius {
-                cutter_radius: cutter.radius,
-                blade_groups: cutter.blade_groups,
-            },
-            (Some(cutter), None) => Closure::Palloid {
-                cutter_radius: cutter.radius,
-                blade_groups: cutter.blade_groups,
-            },
-            (None, Some(angle)) if mesh.method.is_none() => Closure::WheelPitchAngle(angle),
-            _ => {
-                self.impossible(
-                    path.to_owned(),
-                    format!(
-                        "the axes have an offset of {:.4} mm, and what determines the pitch cones is not stated once",
-                        offset.abs() * 1e3
-                    ),
-                    "state `cutter` with its `method`, or `wheel_pitch_angle` from the drawing",
-                );
-                return None;
-            }
-        };
-        let is_standard = matches!(closure, Closure::LimitRadius { .. }) && outer.is_some();
-        if mesh.calculation_point.is_some() && !is_standard {
-            self.impossible(
-                format!("{path}.calculation_point"),
-                "only method `gleason` with an outer diameter has a choice of the mean point".to_owned(),
-                "remove it",
-            );
-            return None;
-        }
-        let at_standard = is_standard && mesh.calculation_point.unwrap_or_default() == CalculationPoint::Standard;
-        let size = match (outer, mesh.mean_diameter) {
-            (Some(outer), _) if at_standard => Size::OuterOfStandard(outer),
-            (Some(outer), _) => Size::Outer(outer),
-            (None, mean) => Size::Mean(mean?),
-        };
-        let spiral = match mesh.spiral_angle_of {
-            SpiralAngleOf::Pinion => SpiralAngle::Pinion(mesh.spiral_angle),
-            SpiralAngleOf::Wheel => SpiralAngle::Wheel(mesh.spiral_angle),
-        };
-        let cones = PitchCones::hypoid(z, (shaft_angle, offset), (size, facewidth), spiral, closure);
-        if cones.is_err() {
-            self.impossible(
-                path.to_owned(),
-                "no pitch cones fit the axes, the teeth and the cutter".to_owned(),
-                "check offset, size, spiral angle, `hand` and the cutter; or state `wheel_pitch_angle` from the drawing",
-            );
-        }
-        cones.ok()
     }
 
     fn worm(&mut self, path: String, mesh: &WormMeshEntry) -> Option<MeshSeat> {
@@ -535,6 +440,7 @@ impl Gearing<'_> {
                 kind: CrossedKind::Worm,
                 cones,
                 blank: None,
+                pairs: None,
                 pressure_angle: [mesh.pressure_angle; 2],
                 limit_factor: 0.0,
                 left,
@@ -594,6 +500,7 @@ impl Gearing<'_> {
                 kind: CrossedKind::CrossedHelical,
                 cones,
                 blank: None,
+                pairs: None,
                 pressure_angle: [mesh.pressure_angle; 2],
                 limit_factor: 0.0,
                 left,

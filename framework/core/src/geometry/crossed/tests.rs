@@ -6,7 +6,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use proptest::prelude::*;
 
 use super::*;
-use crate::geometry::{Pair, PairSpec};
+use crate::contact::path::Path;
+use crate::geometry::{LoadSharing, Pair, PairSpec};
 
 const DEG: f64 = PI / 180.0;
 const RPM: f64 = PI / 30.0;
@@ -491,5 +492,148 @@ proptest! {
             prop_assert!((cones.radius[i] / bevel.radius[i] - 1.0).abs() < 1e-7);
             prop_assert!((cones.spiral_angle[i] - bevel.spiral_angle[i]).abs() < 1e-7);
         }
+    }
+}
+
+/// The flanks of a pair as two surfaces with a path of contact.
+fn flanks(example: &Example, flank: Flank) -> Pair {
+    Pair::bevel(&example.cones, &example.blank, example.pressure, flank).unwrap()
+}
+
+#[test]
+fn flanks_have_the_velocities_curvature_and_losses_of_the_examples() {
+    for (example, flank, lengthwise, rolling, radius, factor) in [
+        (f2(), Flank::Drive, 0.0, 2.0 * 11.14972, 12.45859, 0.193043),
+        (f3(), Flank::Drive, 6.745500, 11.43477 + 9.29895, 17.92617, 0.463247),
+        (f3(), Flank::Coast, 6.745500, 12.63750 + 10.50169, 0.0, 0.494836),
+        (f5(), Flank::Drive, 12.83132, 20.02485 + 16.77783, 28.39731, 0.425387),
+    ] {
+        let pair = flanks(&example, flank);
+        let pitch = pair.points[2];
+        for sliding in [pair.lengthwise_sliding(), pair.sliding(pitch)] {
+            assert!((sliding * 1e3 - lengthwise).abs() < 2e-6 * lengthwise + 1e-12);
+        }
+        close(pair.sum_speed(pitch) * 1e3, rolling, 1e-6);
+        close(
+            2.0 * pair.sin_working_angle * pair.working_radius[0] * 1e3,
+            rolling,
+            1e-6,
+        );
+        if radius > 0.0 {
+            close(pair.relative_radius(pitch) * 1e3, radius, 1e-6);
+        }
+        // Friction over even load, by quadrature and in closed form.
+        let path = Path::new(&pair, LoadSharing::Uniform, 24).unwrap();
+        let arm = pair.base_radius[0] * pair.cos_base_helix;
+        close(
+            arm,
+            example.cones.radius[0] * pair.pressure_angle.cos() * example.cones.spiral_angle[0].cos(),
+            1e-12,
+        );
+        let one = vec![1.0; path.len()];
+        close(path.sliding(&one) / arm, factor, 3e-6);
+        let closed = example.path(flank);
+        close(path.sliding(&one), closed.mean_sliding(), 1e-9);
+        close(path.friction_arm(&one, None), closed.mean_friction_arm(), 1e-7);
+    }
+}
+
+/// Without an offset the loss factor is that of the virtual cylindrical gears with an evenly shared load.
+#[test]
+fn without_offset_the_loss_factor_is_that_of_virtual_gears() {
+    for spiral in [0.0, 35.0] {
+        let cones = PitchCones::bevel([14, 39], FRAC_PI_2, Size::Outer(176.893e-3), 25.4e-3, spiral * DEG);
+        let example = Example {
+            blank: Blank::new(&cones, &depth(0.24737, [0.0, 0.0]), 25.4e-3, Some(176.893e-3)),
+            cones,
+            pressure: (20.0 * DEG, 0.0),
+        };
+        for flank in [Flank::Drive, Flank::Coast] {
+            let (pair, teeth) = (flanks(&example, flank), example.pair(flank));
+            let z = [0, 1].map(|i| f64::from(cones.z[i]) / cones.pitch_angle[i].cos());
+            let u = z[1] / z[0];
+            let [e1, e2] = pair.addendum_ratio;
+            let factor =
+                PI * (u + 1.0) / (z[0] * u * teeth.base_helix.cos()) * (e1 * e1 + e2 * e2) / pair.contact_ratio;
+            let path = Path::new(&pair, LoadSharing::Uniform, 8).unwrap();
+            let arm = pair.base_radius[0] * pair.cos_base_helix;
+            close(path.sliding(&vec![1.0; path.len()]) / arm, factor, 1e-9);
+            assert!(pair.lengthwise_sliding() <= 1e-12 * pair.sliding(pair.points[0]));
+        }
+    }
+}
+
+/// At a shaft angle of zero the flanks are those of a cylindrical pair.
+#[test]
+fn cylinders_have_the_loss_factor_of_cylindrical_gears() {
+    let fzg = PairSpec {
+        z: [16, 24],
+        internal: false,
+        normal_module: 4.5e-3,
+        pressure_angle: 20.0 * DEG,
+        helix_angle: 0.0,
+        centre_distance: Some(91.5e-3),
+        profile_shift: [None, None],
+        tip_diameter: [Some(82.636e-3), Some(118.544e-3)],
+        root_diameter: [None, None],
+        facewidth: 14e-3,
+        tip_shortening: true,
+    };
+    let helical = PairSpec {
+        z: [31, 96],
+        normal_module: 1.6e-3,
+        pressure_angle: 17.5 * DEG,
+        helix_angle: 27.0 * DEG,
+        centre_distance: Some(115e-3),
+        tip_diameter: [Some(60.2e-3), Some(176.251e-3)],
+        facewidth: 17e-3,
+        ..fzg
+    };
+    for (spec, printed) in [(fzg, 0.2393094), (helical, 0.1160330)] {
+        let cylindrical = Pair::new(&spec).unwrap();
+        let helix = cylindrical.working_helix;
+        let module = 2.0 * cylindrical.working_radius[0] * helix.cos() / f64::from(spec.z[0]);
+        let cones = PitchCones::cylinders(spec.z, module, [helix, helix]);
+        let angle = (cylindrical.working_angle.tan() * helix.cos()).atan();
+        let addendum = [0, 1].map(|i| 0.5 * cylindrical.tip_diameter[i] - cylindrical.working_radius[i]);
+        let blank = Blank {
+            mean_addendum: addendum,
+            mean_dedendum: [2e-3; 2],
+            facewidth: [spec.facewidth; 2],
+            tip_diameter: cylindrical.tip_diameter,
+        };
+        let pair = Pair::bevel(&cones, &blank, (angle, 0.0), Flank::Drive).unwrap();
+        for (value, expected) in pair.points.iter().zip(cylindrical.points) {
+            close(*value, expected, 1e-9);
+        }
+        for x in cylindrical.points {
+            assert!((pair.sliding(x) - cylindrical.sliding(x)).abs() < 1e-12);
+            close(pair.sum_speed(x), cylindrical.sum_speed(x), 1e-9);
+            close(pair.relative_radius(x), cylindrical.relative_radius(x), 1e-9);
+        }
+        close(pair.normal_force(100.0), cylindrical.normal_force(100.0), 1e-12);
+        close(pair.loss_factor_local(LoadSharing::Uniform), printed, 1e-6);
+        close(
+            pair.loss_factor_local(LoadSharing::Uniform),
+            cylindrical.loss_factor_uniform(),
+            1e-9,
+        );
+    }
+}
+
+/// Sliding per speed is the difference of the arms with which friction acts on both gears: what it takes from one and does not give to the
+/// other is heat.
+#[test]
+fn friction_arms_differ_by_sliding() {
+    let pair = flanks(&f3(), Flank::Drive);
+    let frame = MeanPoint::new(&f3().cones);
+    let normal = frame.flank_normal(pair.pressure_angle, Flank::Drive);
+    for x in pair.points {
+        let s = (pair.points[2] - x) / pair.cos_base_helix;
+        let [first, second] = frame.velocities(normal * s);
+        let along = (first - second).normalize();
+        let motion = pair.crossed.unwrap();
+        close(motion.friction_arm(x - pair.points[2]), along.dot(&first), 1e-12);
+        close(along.dot(&first) - along.dot(&second), pair.sliding(x), 1e-12);
     }
 }

@@ -4,9 +4,10 @@
 //! virtual pair for bevel and hypoid teeth. Sliding is a vector that changes linearly along it: across the contact as in a cylindrical pair, and
 //! lengthwise by the offset.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 use super::mean_point::MeanPoint;
+use super::motion::{CrossedMotion, Velocity};
 
 /// Path of contact of a flank, for a speed of one of the first gear. \[m\]
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,6 +57,24 @@ impl ToothPath {
         self.frame
             .velocities(self.flank_normal * s)
             .map(|velocity| velocity.dot(&self.across))
+    }
+
+    /// The motion over the position in the transverse plane, from the pitch point towards the tip of the first gear, for the cosine of the base
+    /// helix angle; with the relative radius of curvature over that of the virtual cylinders.
+    pub(super) fn motion(&self, cos_base_helix: f64, radius_factor: f64) -> CrossedMotion {
+        let in_flank = self.flank_normal.cross(&self.frame.trace);
+        let in_plane = |v: Vector3<f64>| Vector2::new(v.dot(&self.frame.trace), v.dot(&in_flank));
+        let velocity = |at: Vector3<f64>, change: Vector3<f64>| Velocity {
+            at_pitch: in_plane(at),
+            change: in_plane(change) / -cos_base_helix,
+        };
+        let first = self.frame.velocities(Vector3::zeros())[0];
+        CrossedMotion {
+            first: velocity(first, self.frame.axis[0].cross(&self.flank_normal)),
+            sliding: velocity(self.frame.sliding(), self.frame.turning().cross(&self.flank_normal)),
+            across: in_plane(self.across),
+            radius_factor,
+        }
     }
 
     /// Mean sliding velocity with even load along the path, over the speed of the first gear. \[m\]

@@ -63,6 +63,7 @@ fn unplaced(case: Case) -> Unplaced {
         }
     };
     Unplaced {
+        pairs: None,
         blank: (kind == CrossedKind::Bevel).then(|| Blank::new(&cones, &depth, facewidth, None)),
         kind,
         cones,
