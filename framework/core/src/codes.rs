@@ -74,6 +74,9 @@ gearloss_document::codes! {
     CROSSED = "E0321", "impossible pair of gears on axes that cross",
         cause: "The data of a bevel, hypoid, worm or crossed helical pair contradict each other or its axes, or a key does not apply to such gears.",
         help: "Correct the value that the message names; shaft angle, offset and positions follow from the axes.";
+    BEVEL_DRAG = "E0325", "drag law that does not describe bevel gears",
+        cause: "Most laws of churning and windage take the dimensions of a cylindrical gear, and those of a bevel gear are not defined in them.",
+        help: "Choose a law that describes bevel gears, or switch the slot off at the gear with `none`.";
     CHAIN = "E0332", "invalid chain or belt",
         cause: "The wheels of a chain are not on two parallel shafts in one plane, its links do not fit the centre distance, or it lacks teeth, pitch or ratio.",
         help: "Correct the axes, `at`, the numbers of teeth, `pitch` and `links`, or the `ratio` of a belt.";

@@ -26,10 +26,12 @@ pub use solution::{PartLoss, PreloadAt, Solution, ToothForceAt};
 
 use crate::attach::{Oil, State};
 use crate::flow::{Balance, Drive, FlowState, Outcome, Start, Status, Tolerance};
+use crate::geometry::crossed::Flank;
 use crate::hydraulics::Inputs;
 use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad, ToothForces};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
 use crate::mechanism::Answers;
+use crate::mechanism::bevel_mesh::{BevelMesh, BevelMeshAt, BevelPart};
 use crate::mechanism::gear_drag::{GearDrag, GearDragAt};
 use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use crate::real::{Mask as _, Points, Real};
@@ -640,6 +642,10 @@ impl Transmission {
                 let at = self.mesh_at((index, part), tangential, drives, state, book);
                 R::answer::<GearMesh>(&**model, &at)
             }
+            MeshLaw::Bevel { part, model } => {
+                let at = self.bevel_mesh_at((index, part), tangential, drives, state, book);
+                R::answer::<BevelMesh>(&**model, &at)
+            }
             MeshLaw::Lossless => Ok(Loss::POWERS),
         };
         accepted(answer, R::ZERO, live)
@@ -683,6 +689,26 @@ impl Transmission {
             temperature_2: bodies.map_or(oil.temperature, |b| b[1]),
             notes,
         }
+    }
+
+    /// The context of the model of a mesh of bevel gears with this part.
+    #[inline(always)]
+    fn bevel_mesh_at<'a, R: Points>(
+        &'a self,
+        (index, part): (usize, &'a BevelPart),
+        tangential: R,
+        drives: Drive,
+        state: &State<'_, R>,
+        book: &Notebook<'a, R>,
+    ) -> BevelMeshAt<'a, R> {
+        let [drive, _] = &part.flanks;
+        let mesh = self.mesh_at((index, drive), tangential, drives, state, book);
+        let carries = |which: usize| {
+            let teeth = self.meshes[index].seat.crossed();
+            teeth.is_none_or(|teeth| teeth.flanks[which].flank == Flank::Drive)
+        };
+        let [ahead, back] = [0, 1].map(|which| R::constant(f64::from(u8::from(carries(which)))));
+        BevelMeshAt::on_flanks(part, &mesh, R::select(tangential.is_below(R::ZERO), back, ahead))
     }
 
     /// Speed of a mesh's first gear in its carrier's frame; zero if it is rounding error. \[rad/s\]

@@ -18,6 +18,7 @@ use crate::document::{
     Diagnostic, Node, Places, Schema, Shape, Unit, Walked, classify, read_yaml, walk, walk_at, walk_shape,
 };
 use crate::mechanism::Mechanism;
+use crate::mechanism::bevel_mesh::BevelMesh;
 use crate::mechanism::chain::Chain;
 use crate::mechanism::differential::Differential;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
@@ -35,8 +36,9 @@ pub const SETS: &str = PlanetaryDrag::KEY;
 /// Section of differentials, which need no model.
 pub(crate) const DIFFERENTIALS: &str = "differentials";
 /// Mechanisms whose models are in sections of the framework itself: section and key.
-pub const HELD: [(&str, &str); 5] = [
+pub const HELD: [(&str, &str); 6] = [
     ("meshes", MESHES),
+    ("bevel_meshes", BevelMesh::KEY),
     ("planetary_sets", SETS),
     ("chains", Chain::KEY),
     ("joints", Joint::KEY),

@@ -58,6 +58,7 @@ use crate::hydraulics::Hydraulics;
 use crate::loads::{ShaftLoads, StaticRating};
 use crate::loss::NoteBase;
 use crate::mechanism::Slot;
+use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart};
 use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::registry::{Instance, Placed};
@@ -128,7 +129,15 @@ pub(crate) struct MeshModel {
 /// The loss of a mesh, by the mechanism of its kind of teeth.
 pub(crate) enum MeshLaw {
     /// Cylindrical gears.
-    Cylindrical { part: Arc<MeshPart>, model: Slot<GearMesh> },
+    Cylindrical {
+        part: Arc<MeshPart>,
+        model: Slot<GearMesh>,
+    },
+    /// Bevel and hypoid gears.
+    Bevel {
+        part: Arc<BevelPart>,
+        model: Slot<BevelMesh>,
+    },
     /// No loss.
     Lossless,
 }
@@ -138,6 +147,7 @@ impl MeshLaw {
     pub fn off(&self) -> bool {
         match self {
             Self::Cylindrical { model, .. } => model.off,
+            Self::Bevel { model, .. } => model.off,
             Self::Lossless => true,
         }
     }
@@ -146,6 +156,7 @@ impl MeshLaw {
     pub fn notes(&self) -> NoteBase {
         match self {
             Self::Cylindrical { model, .. } => model.notes,
+            Self::Bevel { model, .. } => model.notes,
             Self::Lossless => NoteBase::default(),
         }
     }
@@ -154,7 +165,7 @@ impl MeshLaw {
     pub fn cylindrical(&self) -> Option<&MeshPart> {
         match self {
             Self::Cylindrical { part, .. } => Some(part),
-            Self::Lossless => None,
+            Self::Bevel { .. } | Self::Lossless => None,
         }
     }
 }

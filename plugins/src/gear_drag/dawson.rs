@@ -3,12 +3,13 @@
 //! Source: Dawson: Windage loss in larger high-speed gears, Proc. IMechE 198A (1984) 51-59, quoted from memory:
 //! P = 1e-20 n^2.9 (0.16 D^3.9 + D^2.9 b^0.75 m^1.15) Phi lambda in kW; n in 1/min, D root diameter, b and m in mm.
 //! Phi is 1 in air and more in oil mist; lambda is 1 for a free gear, 0.7 in a loose and 0.5 to 0.6 in a tight enclosure.
+//! A bevel gear has the root diameter of its outer end and its face width: an extension of our own.
 
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
 use gearloss_framework::registry::{Check, Evidence, default_of, formula};
-use gearloss_framework::{coefficients, register, terms};
+use gearloss_framework::{coefficients, limits, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -16,6 +17,10 @@ use super::WINDAGE;
 use crate::checks::SIX_DIGITS;
 
 terms! { TERM = no_load("windage"); }
+limits! {
+    CONE = ("delta", "pitch angle of a bevel gear", "deg", 0.0, 0.0,
+        "tests with cylindrical gears; with the outer root diameter and the face width of a bevel gear uncertain by a factor of about two");
+}
 
 coefficients! {
     /// Constants of the formula of Dawson.
@@ -75,8 +80,16 @@ impl GearDragModel for Dawson {
         Some(WINDAGE)
     }
 
+    fn describes_bevel(&self) -> bool {
+        true
+    }
+
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let gear = &at.part.gear;
+        if gear.pitch_angle != 0.0 {
+            at.branch("bevel gear: root diameter of its outer end");
+            at.check(&CONE, gear.pitch_angle.to_degrees());
+        }
         let d = at.show("D", "mm", gear.root_diameter.mm());
         let power = self.power(at.speed.abs().rpm(), d, gear.facewidth.mm(), gear.normal_module.mm());
         Ok(Loss::POWERS.with(&TERM, at.show("P", "W", power)))
@@ -107,4 +120,4 @@ register!(GearDrag, "dawson", Dawson,
             ..SIX_DIGITS
         },
     ],
-    terms: [TERM]);
+    limits: [CONE], terms: [TERM]);

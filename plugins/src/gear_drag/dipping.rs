@@ -38,6 +38,7 @@ impl Dipping {
             gear.pressure_angle,
             gear.helix_angle,
         )
+        .on_cone(radius - gear.facewidth * gear.pitch_angle.sin(), radius)
         .sum();
         Some(Self {
             omega,

@@ -192,6 +192,7 @@ mod tests {
             normal_module: 1.6e-3,
             pressure_angle: 0.3,
             helix_angle: 0.5,
+            pitch_angle: 0.0,
             facewidth: 17e-3,
             reference_diameter: diameter,
             working_diameter: diameter,

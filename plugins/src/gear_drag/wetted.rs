@@ -22,6 +22,20 @@ impl Wetted {
         }
     }
 
+    /// The surface of a bevel gear, whose outer circle this one is about: the inner face is smaller, and the toothed face is a cone. The immersion
+    /// angle is that of the outer circle. At a pitch angle of zero both radii are equal, and nothing changes.
+    pub fn on_cone(self, inner: f64, outer: f64) -> Self {
+        if inner == outer {
+            return self;
+        }
+        let share = inner.max(0.0) / outer;
+        Self {
+            side: self.side * 0.5 * (1.0 + share * share),
+            rim: self.rim * 0.5 * (1.0 + share),
+            teeth: self.teeth,
+        }
+    }
+
     pub fn sum(&self) -> f64 {
         self.side + self.rim + self.teeth
     }
@@ -30,6 +44,19 @@ impl Wetted {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Surfaces of a frustum that is immersed wholly: the cone is pi b (r_e + r_i).
+    #[test]
+    fn a_bevel_gear_has_the_surface_of_a_frustum() {
+        let (outer, inner, b) = (0.085_f64, 0.057_f64, 0.030);
+        let whole = Wetted::new(outer, 0.200, b, 42.0, 0.008, 20.0_f64.to_radians(), 0.6).on_cone(inner, outer);
+        let close = |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-12, "{value} {expected}");
+        close(whole.rim, std::f64::consts::PI * b * (outer + inner));
+        close(whole.side, std::f64::consts::PI * (outer * outer + inner * inner));
+        let flat = Wetted::new(outer, 0.020, b, 42.0, 0.008, 0.35, 0.6);
+        let (sum, same) = (flat.sum(), flat.on_cone(outer, outer).sum());
+        assert_eq!(sum.to_bits(), same.to_bits());
+    }
 
     #[test]
     fn c1_wetted_surface() {

@@ -13,6 +13,7 @@ use crate::document::Diagnostic;
 use crate::language::Language;
 use crate::loss::{Extent, Notebook, Seen, Trace, Undefined};
 use crate::mechanism::Mechanism as _;
+use crate::mechanism::bevel_mesh::BevelMesh;
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::rating::{Rated, RatingSlot};
 use crate::registry::{Build, BuiltRating, Files, Instance, RatingPlugin};
@@ -39,6 +40,7 @@ struct Own {
 enum Kind {
     Component(usize, BuiltRating),
     Mesh(usize, RatingSlot<GearMesh>),
+    BevelMesh(usize, RatingSlot<BevelMesh>),
 }
 
 /// A rating of a component at one point.
@@ -85,6 +87,14 @@ impl Ratings {
                         build
                             .rating::<GearMesh>(&path, part, &plugin.entry, value)
                             .map(|built| Some(Kind::Mesh(i, built)))
+                    }
+                    PartKind::Mesh(i) if plugin.entry.mechanism == BevelMesh::KEY => {
+                        let MeshLaw::Bevel { part, .. } = &transmission.meshes[i].law else {
+                            continue;
+                        };
+                        build
+                            .rating::<BevelMesh>(&path, part, &plugin.entry, value)
+                            .map(|built| Some(Kind::BevelMesh(i, built)))
                     }
                     // Drags are rated with their gears.
                     PartKind::Mesh(_) | PartKind::Drag(_) | PartKind::Transfer(_) => continue,
@@ -207,6 +217,10 @@ impl Solution<'_> {
                 );
                 rating.rate(&muted.with(|to| to.notes = book.notes(rating.notes)))
             }
+            Kind::BevelMesh(i, rating) => match self.bevel_mesh_at(*i) {
+                Some(muted) => rating.rate(&muted.with(|to| to.notes = book.notes(rating.notes))),
+                None => Ok(Rated::default()),
+            },
         }
     }
 }

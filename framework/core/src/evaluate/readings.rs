@@ -6,6 +6,7 @@ use crate::document::Unit;
 use crate::flow::Drive;
 use crate::loss::Notebook;
 use crate::mechanism::Mechanism;
+use crate::mechanism::bevel_mesh::BevelMesh;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
 use crate::transmission::{PartKind, RowName};
@@ -61,7 +62,10 @@ impl Solution<'_> {
         let state = self.state();
         match t.parts[part].kind {
             PartKind::Component(i) => t.components[i].placed.readings(&state),
-            PartKind::Mesh(i) => self.mesh_at(i).map_or_else(Vec::new, |at| readings::<GearMesh>(&at)),
+            PartKind::Mesh(i) => match self.bevel_mesh_at(i) {
+                Some(at) => readings::<BevelMesh>(&at),
+                None => self.mesh_at(i).map_or_else(Vec::new, |at| readings::<GearMesh>(&at)),
+            },
             PartKind::Drag(i) => readings::<GearDrag>(&t.drag_at(i, &state, &Notebook::CLOSED)),
             PartKind::Transfer(i) => self.transfer_readings(i),
         }

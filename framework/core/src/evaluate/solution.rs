@@ -5,9 +5,10 @@ use crate::flow::Status;
 use crate::geometry::crossed::Flank;
 use crate::loads::{PairLoads, SupportLoad, ToothForces};
 use crate::loss::{Extent, Loss, Notebook, Trace, Undefined};
+use crate::mechanism::bevel_mesh::BevelMeshAt;
 use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::real::{Points, Real};
-use crate::transmission::{Case, PartInfo, PartKind, Transmission};
+use crate::transmission::{Case, MeshLaw, PartInfo, PartKind, Transmission};
 
 /// Loss of one part, all copies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -393,6 +394,21 @@ impl Solution<'_> {
         let state = self.state();
         let part = self.transmission.meshes[mesh].law.cylindrical()?;
         Some(self.transmission.mesh_at(
+            (mesh, part),
+            s.models.tangential[mesh],
+            s.work.drives[mesh],
+            &state,
+            &Notebook::CLOSED,
+        ))
+    }
+
+    /// The context of the model of a mesh of bevel gears, with muted notes; `None` of other gears.
+    pub fn bevel_mesh_at(&self, mesh: usize) -> Option<BevelMeshAt<'_>> {
+        let (s, state) = (self.scratch, self.state());
+        let MeshLaw::Bevel { part, .. } = &self.transmission.meshes[mesh].law else {
+            return None;
+        };
+        Some(self.transmission.bevel_mesh_at(
             (mesh, part),
             s.models.tangential[mesh],
             s.work.drives[mesh],

@@ -133,7 +133,7 @@ impl TryFrom<BevelEntry> for BevelPart {
             facewidth: entry.facewidth,
         };
         let pair = entry.teeth.pair(&axes);
-        let pair = pair.map_err(|(message, help)| format!("{message}: {help}"))?;
+        let pair = pair.map_err(|fault| fault.to_string())?;
         let surfaces = FlankSurfaces {
             ra: entry.ra,
             rq: entry.rq,
@@ -192,6 +192,30 @@ pub struct MeshFriction<R> {
 }
 
 impl<'a, R: Real> BevelMeshAt<'a, R> {
+    /// The inputs of a pair from those of its drive flanks alone, and one where the drive flanks carry, zero where the coast flanks do.
+    #[inline(always)]
+    pub(crate) fn on_flanks(part: &'a BevelPart, mesh: &GearMeshAt<'a, R>, drive_flank: R) -> Self {
+        Self {
+            part,
+            torque: mesh.torque,
+            speed: mesh.speed,
+            first_drives: mesh.first_drives,
+            drive_flank,
+            temperature: mesh.temperature,
+            nu: mesh.nu,
+            eta: mesh.eta,
+            rho: mesh.rho,
+            alpha: mesh.alpha,
+            beta: mesh.beta,
+            conductivity: mesh.conductivity,
+            x_l: mesh.x_l,
+            bodies_known: mesh.bodies_known,
+            temperature_1: mesh.temperature_1,
+            temperature_2: mesh.temperature_2,
+            notes: mesh.notes,
+        }
+    }
+
     /// The flanks that carry: 0 for the drive flanks, 1 for the coast flanks.
     ///
     /// # Errors

@@ -41,6 +41,10 @@ pub struct Covers {
 pub trait GearDragModel: Send + Sync {
     /// The causes that the model covers; `None` if the name of its slot states it.
     fn covers(&self) -> Option<Covers>;
+    /// True if the law describes bevel gears, too: gears with a [pitch angle](GearBody::pitch_angle).
+    fn describes_bevel(&self) -> bool {
+        false
+    }
     /// Loss at one operating point. Pure; must not allocate.
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined>;
 }
@@ -61,6 +65,10 @@ pub struct GearBody {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 60.0))]
     pub helix_angle: f64,
+    /// Pitch angle of a bevel gear, whose diameters are those at its outer end; zero for a cylindrical gear. [deg]
+    #[serde(default)]
+    #[schemars(range(min = 0.0, max = 120.0))]
+    pub pitch_angle: f64,
     /// Face width. [mm]
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub facewidth: f64,
@@ -98,7 +106,8 @@ impl GearBody {
                 mm(self.root_diameter)
             ));
         }
-        if (self.reference_diameter - reference).abs() > ROUNDED * reference {
+        // The module of a bevel gear is that in the middle of its face.
+        if self.pitch_angle == 0.0 && (self.reference_diameter - reference).abs() > ROUNDED * reference {
             return Err(format!(
                 "{name}: reference_diameter {} mm contradicts z, normal_module and helix_angle, which give {} mm: correct one of them",
                 mm(self.reference_diameter),
@@ -251,6 +260,10 @@ axial_clearance: 12 mm
 impl GearDragModel for Scalar<GearDrag> {
     fn covers(&self) -> Option<Covers> {
         None
+    }
+    /// The user states it for this gear.
+    fn describes_bevel(&self) -> bool {
+        true
     }
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         self.moment(at)

@@ -27,12 +27,12 @@ use crate::document::{Diagnostic, classify};
 use crate::hydraulics::Hydraulics;
 use crate::language::Language;
 use crate::loads::ShaftLoads;
-use crate::mechanism::ModelRef;
 use crate::mechanism::clutch::Clutch;
-use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
+use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart, FlankSurfaces};
+use crate::mechanism::gear_mesh::{GearMesh, MeshOil, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::mechanism::seal::Seal;
-use crate::mechanism::{Component as _, Mechanism};
+use crate::mechanism::{Component as _, Mechanism, ModelRef, Slot};
 use crate::registry::{Build, Files, Memory};
 use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
@@ -784,7 +784,10 @@ fn mesh_models(
     let mut models = Vec::new();
     for (i, seat) in frame.meshes.iter().enumerate() {
         let Some(teeth) = seat.cylindrical() else {
-            models.extend(crossed_model(seat, frame, oils));
+            match crossed_model(i, seat, frame, oils, build, parts) {
+                Ok(model) => models.extend(model),
+                Err(error) => found.push(error),
+            }
             continue;
         };
         let id = seat.path.strip_prefix("meshes.");
@@ -834,11 +837,10 @@ fn force_per_multiplier(seat: &MeshSeat) -> f64 {
     f64::from(seat.z()[0]) / (seat.count * seat.radius())
 }
 
-/// A mesh of gears on axes that cross.
-fn crossed_model(seat: &MeshSeat, frame: &Frame, oils: &mut OilNumbers<'_>) -> Option<MeshModel> {
-    let (section, id) = seat.path.split_once('.')?;
-    let entry = &frame.entry;
-    let (lubricant, temperature_offset, loss_factor) = match section {
+/// What the entries of all meshes on axes that cross state alike: oil, its temperature offset, factor on the loss.
+fn crossed_common<'e>(entry: &'e GearboxEntry, path: &str) -> Option<(&'e Option<String>, f64, f64)> {
+    let (section, id) = path.split_once('.')?;
+    Some(match section {
         "bevel_meshes" => {
             let own = entry.bevel_meshes.get(id)?;
             (&own.lubricant, own.temperature_offset, own.loss_factor)
@@ -851,6 +853,21 @@ fn crossed_model(seat: &MeshSeat, frame: &Frame, oils: &mut OilNumbers<'_>) -> O
             let own = entry.crossed_helical_meshes.get(id)?;
             (&own.lubricant, own.temperature_offset, own.loss_factor)
         }
+    })
+}
+
+/// A mesh of gears on axes that cross, with its number.
+fn crossed_model(
+    number: usize,
+    seat: &MeshSeat,
+    frame: &Frame,
+    oils: &mut OilNumbers<'_>,
+    build: &mut Build<'_>,
+    parts: &mut Vec<PartInfo>,
+) -> Result<Option<MeshModel>, Diagnostic> {
+    let entry = &frame.entry;
+    let Some((lubricant, temperature_offset, loss_factor)) = crossed_common(entry, &seat.path) else {
+        return Ok(None);
     };
     let common = Common {
         lubricant: lubricant.clone(),
@@ -858,17 +875,59 @@ fn crossed_model(seat: &MeshSeat, frame: &Frame, oils: &mut OilNumbers<'_>) -> O
         loss_factor,
         ..Common::default()
     };
-    let oil = oils.oil(&seat.path, &common)?;
-    Some(MeshModel {
+    let Some(oil) = oils.oil(&seat.path, &common) else {
+        return Ok(None);
+    };
+    let law = match bevel_law(seat, entry, oils.lubricant(oil), build)? {
+        Some((part, model)) => {
+            parts.push(PartInfo {
+                path: seat.path.clone(),
+                mechanism: BevelMesh::KEY,
+                kind: PartKind::Mesh(number),
+                count: seat.count,
+                loss_factor,
+                notes: model.notes,
+            });
+            MeshLaw::Bevel { part, model }
+        }
+        None => MeshLaw::Lossless,
+    };
+    Ok(Some(MeshModel {
         bodies: None,
         loss_factor,
         sharing: None,
         force_per_multiplier: force_per_multiplier(seat),
         seat: seat.clone(),
-        law: MeshLaw::Lossless,
+        law,
         oil,
         greased: entry.is_greased(lubricant.as_deref()),
-    })
+    }))
+}
+
+/// Part and model of a bevel mesh; none of another mesh.
+fn bevel_law(
+    seat: &MeshSeat,
+    entry: &GearboxEntry,
+    oil: Option<MeshOil>,
+    build: &mut Build<'_>,
+) -> Result<Option<(Arc<BevelPart>, Slot<BevelMesh>)>, Diagnostic> {
+    let id = seat.path.strip_prefix("bevel_meshes.");
+    let written = id.and_then(|id| entry.bevel_meshes.get(id));
+    let pair = seat.crossed().and_then(|teeth| teeth.bevel_pair());
+    let (Some(written), Some(pair)) = (written, pair) else {
+        return Ok(None);
+    };
+    let surfaces = FlankSurfaces {
+        ra: seat.ra,
+        rq: seat.rq,
+        elastic_modulus: written.elastic_modulus,
+        poisson: written.poisson,
+    };
+    let part = build.part_again(&seat.path, BevelPart::new(pair, surfaces, oil.as_ref()));
+    let none = ModelRef::<BevelMesh>::new("none".into());
+    let choice = written.model.as_ref().unwrap_or(&none);
+    let model = build.slot_at::<BevelMesh>(&format!("{}.model", seat.path), &part, &choice.value)?;
+    Ok(Some((part, model)))
 }
 
 /// Reports seals that the oil at rest covers.

@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::axis::Axis;
+use crate::description::BevelPair;
 use crate::geometry::Pair;
 use crate::geometry::crossed::{Blank, Flank, MeanPoint, PitchCones, ToothPath, VirtualPair};
 
@@ -216,6 +217,15 @@ impl CrossedTeeth {
             along,
             flanks,
         }
+    }
+
+    /// Geometry of a bevel or hypoid pair; `None` of other ones.
+    pub fn bevel_pair(&self) -> Option<BevelPair> {
+        Some(BevelPair {
+            cones: self.cones,
+            blank: self.blank?,
+            flanks: self.pairs?,
+        })
     }
 
     /// Sign of the second number of teeth in the constraint of speeds.

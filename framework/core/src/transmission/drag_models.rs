@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use super::drags::{Covered, DragSeat, body, mates, named, part, twice};
+use super::drags::{Covered, DragSeat, body, body_of_gear, mates, named, part, twice};
 use super::oils::OilNumbers;
 use super::seats::{GearSeat, MeshSeat};
 use super::{DragModel, PartInfo, PartKind};
 use crate::attach::{Common, Level, Places};
+use crate::codes;
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::mechanism::gear_drag::{Covers, DragPart, GearDrag, Scope};
@@ -89,11 +90,11 @@ impl Drags<'_, '_, '_> {
         }
     }
 
-    /// A gear of a mesh of cylindrical gears; `None` of another mesh.
+    /// A gear of a mesh; `None` of worms and crossed helical gears.
     fn on_gear(&mut self, i: usize, gear: &GearSeat, mesh: &MeshSeat) -> Option<Place> {
         let written = &self.entry.gears.0[i].1;
         let revolves = mesh.carrier.is_some_and(|c| c != gear.member) && is_planet(self.entry, &gear.id);
-        let body = body(gear, i, mesh)?;
+        let body = body_of_gear(gear, i, mesh)?;
         Some(Place {
             scope: Scope::Gear,
             seat: DragSeat {
@@ -178,6 +179,17 @@ impl Drags<'_, '_, '_> {
                     continue;
                 }
             };
+            if place.part.gear.pitch_angle != 0.0 && !model.off && !model.describes_bevel() {
+                let message = format!("`{name}` takes the dimensions of a cylindrical gear, and this is a bevel gear");
+                self.found.push(
+                    Diagnostic::error(path, message)
+                        .code(codes::BEVEL_DRAG)
+                        .help(format!(
+                            "choose a law that describes bevel gears, or write `drag: {{ {slot}: none }}` at the gear"
+                        )),
+                );
+                continue;
+            }
             let covers = model.covers().unwrap_or_else(|| named(slot));
             let others = self
                 .covered

@@ -59,12 +59,41 @@ pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> Option<GearBody> 
         normal_module: pair.normal_module,
         pressure_angle: pair.pressure_angle,
         helix_angle: pair.helix_angle,
+        pitch_angle: 0.0,
         facewidth: gear.facewidth,
         reference_diameter: pair.reference_diameter[side],
         working_diameter: 2.0 * pair.working_radius[side],
         tip_diameter: pair.tip_diameter[side],
         root_diameter: pair.root_diameter[side],
         contact_height: (pair.working_radius[side] * upwards + 0.5 * pair.tip_diameter[side]).max(0.0),
+    })
+}
+
+/// The body of a gear alone; `None` of worms and crossed helical gears.
+pub fn body_of_gear(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> Option<GearBody> {
+    body(gear, index, mesh).or_else(|| bevel_body(gear, index, mesh))
+}
+
+/// The body of a bevel gear, with the diameters at its outer end.
+fn bevel_body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> Option<GearBody> {
+    let teeth = mesh.crossed()?;
+    let blank = teeth.blank.as_ref()?;
+    let side = usize::from(mesh.gears[0] != index);
+    let [reference, tip, root] = gear.diameters;
+    // The lowest point of a circle around an inclined axis.
+    let upright = (1.0 - teeth.axis[side].z.powi(2)).max(0.0).sqrt();
+    Some(GearBody {
+        z: gear.z,
+        normal_module: teeth.cones.normal_module(),
+        pressure_angle: teeth.pressure_angle[0],
+        helix_angle: teeth.cones.spiral_angle[side].abs(),
+        pitch_angle: teeth.cones.pitch_angle[side],
+        facewidth: blank.facewidth[side],
+        reference_diameter: reference,
+        working_diameter: reference,
+        tip_diameter: tip,
+        root_diameter: root,
+        contact_height: (teeth.arm(side).z + 0.5 * tip * upright).max(0.0),
     })
 }
 
