@@ -1,6 +1,7 @@
 //! Ratings at solved points: bearings, flanks, seals.
 
 pub mod bearing_speed;
+pub mod bevel_flank;
 pub mod equivalent_load;
 mod flank;
 pub mod flank_contact;

@@ -10,7 +10,7 @@
 use gearloss_framework::contact::path::Path;
 use gearloss_framework::contact::{Film, film};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::geometry::{LoadSharing, Pair};
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits as _;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt};
@@ -23,15 +23,15 @@ use serde::Deserialize;
 
 use super::{at_least_unless_zero, flank};
 
-const AT_PITCH: Figure = Figure::greatest("p_HC", "MPa", "Hertzian pressure at the pitch point");
-const PRESSURE: Figure = Figure::greatest("p_H", "MPa", "maximum Hertzian pressure along the path of contact");
-const FILM: Figure = Figure::least("h_min", "um", "minimum film thickness along the path of contact").detail();
-const LAMBDA: Figure = Figure::least("lambda", "-", "minimum film ratio along the path of contact");
-const LAMBDA_RA: Figure = Figure::least("lambda_GF", "-", "minimum film over arithmetic mean roughness").detail();
+pub(super) const AT_PITCH: Figure = Figure::greatest("p_HC", "MPa", "Hertzian pressure at the pitch point");
+pub(super) const PRESSURE: Figure = Figure::greatest("p_H", "MPa", "maximum Hertzian pressure along the path of contact");
+pub(super) const FILM: Figure = Figure::least("h_min", "um", "minimum film thickness along the path of contact").detail();
+pub(super) const LAMBDA: Figure = Figure::least("lambda", "-", "minimum film ratio along the path of contact");
+pub(super) const LAMBDA_RA: Figure = Figure::least("lambda_GF", "-", "minimum film over arithmetic mean roughness").detail();
 const MICROPITTING: Figure = Figure::least("S_lambda", "-", "indicator of micropitting");
 
 /// Hertzian pressure, film ratio and an indicator of micropitting of gear flanks.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct FlankContact {
     /// Load sharing among pairs of teeth in contact.
     #[serde(default)]
@@ -66,25 +66,34 @@ fn one() -> f64 {
     1.0
 }
 
-/// The rating with the path of its mesh.
-struct Prepared {
+/// The rating of a pair of flanks with its path.
+pub(super) struct Prepared {
     params: FlankContact,
     path: Option<Path>,
     pitch: usize,
 }
 
 fn prepare(params: FlankContact, cx: &mut Build<'_>) -> Result<Prepared, Diagnostic> {
-    let pair = &cx.own_part::<GearMesh>()?.pair;
-    let path = flank::path(pair, params.load_sharing);
-    Ok(Prepared {
-        pitch: path.as_ref().map_or(0, |path| flank::at_pitch_point(path, pair)),
-        path,
-        params,
-    })
+    Ok(Prepared::new(params, &cx.own_part::<GearMesh>()?.pair))
 }
 
 impl Rating<GearMesh> for Prepared {
     fn rate(&self, at: &GearMeshAt<'_>, to: &mut Rated) -> Result<(), Undefined> {
+        self.rate_flanks(at, to)
+    }
+}
+
+impl Prepared {
+    pub(super) fn new(params: FlankContact, pair: &Pair) -> Self {
+        let path = flank::path(pair, params.load_sharing);
+        Self {
+            pitch: path.as_ref().map_or(0, |path| flank::at_pitch_point(path, pair)),
+            path,
+            params,
+        }
+    }
+
+    pub(super) fn rate_flanks(&self, at: &GearMeshAt<'_>, to: &mut Rated) -> Result<(), Undefined> {
         let Some(path) = &self.path else {
             at.branch("no path of contact of involute flanks");
             return Ok(());

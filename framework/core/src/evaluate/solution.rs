@@ -417,6 +417,15 @@ impl Solution<'_> {
         ))
     }
 
+    /// The flanks that carry as a mesh with a path of contact, with muted notes: of cylindrical gears, and of bevel gears with the normal force
+    /// that their torque causes without friction. `None` of other gears.
+    pub fn flanks_at(&self, mesh: usize) -> Option<GearMeshAt<'_>> {
+        match self.bevel_mesh_at(mesh) {
+            Some(at) => Some(at.on_flank(at.flank().ok()?)),
+            None => self.mesh_at(mesh),
+        }
+    }
+
     /// Force of the teeth of a mesh on axes that cross on the first gear, with friction; that on the second gear is opposite. `None` of
     /// cylindrical gears.
     pub fn tooth_force(&self, mesh: usize) -> Option<ToothForceAt> {

@@ -41,8 +41,8 @@ pub struct ContactPathEntry {
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
-    /// Mesh, one of `meshes`.
-    #[schemars(extend("x-refers-to" = "meshes"))]
+    /// Mesh, one of `meshes` or `bevel_meshes`.
+    #[schemars(extend("x-refers-to" = ["meshes", "bevel_meshes"]))]
     pub mesh: String,
     /// Torque. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
@@ -94,6 +94,9 @@ pub struct ContactPath {
     pub load_sharing: LoadSharing,
     /// Torque of the mesh at its first gear. [Nm]
     pub mesh_torque_nm: f64,
+    /// Sliding velocity along the teeth, the same on the whole path and part of the sliding velocity of each point; hypoid gears only. [m/s]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lengthwise_sliding_m_s: Option<f64>,
     /// Why there is no friction; absent if there is.
     pub no_friction: Option<String>,
     /// Points along the path, starting at the first contact.
@@ -234,12 +237,14 @@ impl ContactPathEntry {
             let help = "give the torque at another port, or with the other sign";
             return Err(cx.wrong(&cx.path(), message, help));
         }
-        let model = &built.resolved.value["meshes"][&self.mesh]["model"];
-        let load_sharing = sharing(model);
-        let Some(at) = solution.mesh_at(index) else {
+        let (Some(path), Some(at)) = (t.mesh_paths().nth(index), solution.flanks_at(index)) else {
             return Err(self.not_found(cx, t));
         };
-        let (places, no_friction) = self.places(cx, built, &at, (model, load_sharing))?;
+        let section = path.split('.').next().unwrap_or_default();
+        let model = &built.resolved.value[section][&self.mesh]["model"];
+        let load_sharing = sharing(model);
+        let (places, no_friction) = self.places(cx, built, (path, &at), (model, load_sharing))?;
+        let lengthwise = at.part.pair.lengthwise_sliding() * at.speed.abs();
         Ok(ContactPath {
             model_set: built.name.clone(),
             mesh: self.mesh.clone(),
@@ -249,6 +254,8 @@ impl ContactPathEntry {
             oil_temperature_degc: warm.oil,
             load_sharing,
             mesh_torque_nm: solution.mesh_torque(index),
+            // Rounding of velocities that cancel.
+            lengthwise_sliding_m_s: Some(lengthwise).filter(|speed| *speed > 1e-9),
             no_friction,
             places,
         })
@@ -259,7 +266,9 @@ impl ContactPathEntry {
         let mesh_path = format!("meshes.{}", self.mesh);
         let path = format!("{}.mesh", cx.path());
         let Some((index, _, part)) = t.cylindrical_meshes().find(|(_, path, _)| *path == mesh_path) else {
-            return Err(self.not_found(cx, t));
+            let bevel_path = format!("bevel_{mesh_path}");
+            let bevel = t.mesh_paths().position(|path| path == bevel_path);
+            return bevel.ok_or_else(|| self.not_found(cx, t));
         };
         if !part.pair.involute {
             return Err(cx.wrong(
@@ -276,16 +285,9 @@ impl ContactPathEntry {
 
     /// The error that there is no such mesh.
     fn not_found(&self, cx: &Planner<'_>, t: &Transmission) -> Stopped {
-        let names = t
-            .cylindrical_meshes()
-            .map(|(_, path, _)| path.trim_start_matches("meshes."));
-        let names: Vec<&str> = names.collect();
-        cx.found(vec![dangling(
-            &format!("{}.mesh", cx.path()),
-            "mesh",
-            &self.mesh,
-            &names,
-        )])
+        let of_section = |path| ["meshes.", "bevel_meshes."].into_iter().find_map(|section| str::strip_prefix(path, section));
+        let names: Vec<&str> = t.mesh_paths().filter_map(of_section).collect();
+        cx.found(vec![dangling(&format!("{}.mesh", cx.path()), "mesh", &self.mesh, &names)])
     }
 
     /// The points on the path of a mesh at one operating point, and the reason if there is no friction.
@@ -293,12 +295,12 @@ impl ContactPathEntry {
         &self,
         cx: &Planner<'_>,
         built: &Built<'_>,
-        at: &GearMeshAt<'_>,
+        (path, at): (&str, &GearMeshAt<'_>),
         (model, sharing): (&Value, LoadSharing),
     ) -> Result<(Vec<PlaceOnPath>, Option<String>), Stopped> {
         let part = Arc::new(at.part.clone());
         let mut build = Build::new(cx.language.registry(), &built.gearbox.files);
-        let friction = Friction::new(&mut build, &format!("meshes.{}.model", self.mesh), &part, model);
+        let friction = Friction::new(&mut build, &format!("{path}.model"), &part, model);
         let friction = friction.map_err(|error| cx.found(vec![error]))?;
         let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
         let fine = Path::even(&part.pair, sharing, self.places as usize);
