@@ -32,6 +32,7 @@ pub mod sets;
 pub mod synchronizer;
 pub mod tooth_friction;
 pub mod validated;
+pub mod worm_mesh;
 
 /// Names this crate where `use gearloss_plugins as _;` is not enough: the linker of WebAssembly drops a crate of which nothing is called.
 #[inline(never)]

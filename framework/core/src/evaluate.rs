@@ -34,6 +34,7 @@ use crate::mechanism::Answers;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelMeshAt, BevelPart};
 use crate::mechanism::gear_drag::{GearDrag, GearDragAt};
 use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
+use crate::mechanism::worm_mesh::{WormMesh, WormMeshAt, WormPart};
 use crate::real::{Mask as _, Points, Real};
 use crate::sump::CAPTURE;
 use crate::thermal::Unbalanced;
@@ -646,6 +647,10 @@ impl Transmission {
                 let at = self.bevel_mesh_at((index, part), tangential, drives, state, book);
                 R::answer::<BevelMesh>(&**model, &at)
             }
+            MeshLaw::Worm { part, model } => {
+                let at = self.worm_mesh_at((index, part), tangential, drives, state, book);
+                R::answer::<WormMesh>(&**model, &at)
+            }
             MeshLaw::Lossless => Ok(Loss::POWERS),
         };
         accepted(answer, R::ZERO, live)
@@ -709,6 +714,35 @@ impl Transmission {
         };
         let [ahead, back] = [0, 1].map(|which| R::constant(f64::from(u8::from(carries(which)))));
         BevelMeshAt::on_flanks(part, &mesh, R::select(tangential.is_below(R::ZERO), back, ahead))
+    }
+
+    /// The context of the model of a worm drive with this part.
+    #[inline(always)]
+    fn worm_mesh_at<'a, R: Points>(
+        &'a self,
+        (index, part): (usize, &'a WormPart),
+        tangential: R,
+        drives: Drive,
+        state: &State<'_, R>,
+        book: &Notebook<'a, R>,
+    ) -> WormMeshAt<'a, R> {
+        let mesh = &self.meshes[index];
+        let oil = &state.oils[mesh.oil as usize];
+        let notes = book.notes(mesh.law.notes());
+        if mesh.greased {
+            notes.branch("grease: the oil is its base oil");
+        }
+        WormMeshAt {
+            part,
+            torque: (tangential * mesh.seat.radius()).abs(),
+            speed: self.mesh_speed(index, state.speeds),
+            first_drives: R::constant(f64::from(u8::from(drives != Drive::Second))),
+            temperature: oil.temperature,
+            nu: oil.nu,
+            eta: oil.eta,
+            rho: oil.rho,
+            notes,
+        }
     }
 
     /// Speed of a mesh's first gear in its carrier's frame; zero if it is rounding error. \[rad/s\]

@@ -8,7 +8,9 @@ mod involute;
 mod pair;
 mod path;
 mod ramp;
+mod worm;
 
 pub use involute::involute;
 pub use pair::{Pair, PairFault, PairSpec};
 pub use path::{LoadSharing, PathPoint};
+pub use worm::{Holding, WormPair, WormProfile, WormSpec};

@@ -26,6 +26,7 @@ use crate::mechanism::gear_mesh::GearMesh;
 use crate::mechanism::heat_dissipation::HeatDissipation;
 use crate::mechanism::joint::Joint;
 use crate::mechanism::planetary_drag::PlanetaryDrag;
+use crate::mechanism::worm_mesh::WormMesh;
 use crate::registry::{DocumentKind, Entry, Files, RatingPlugin, Registry, inventory};
 use crate::resolve::{CatalogueTable, Fault, LinkedCatalogue, RATINGS};
 
@@ -36,9 +37,10 @@ pub const SETS: &str = PlanetaryDrag::KEY;
 /// Section of differentials, which need no model.
 pub(crate) const DIFFERENTIALS: &str = "differentials";
 /// Mechanisms whose models are in sections of the framework itself: section and key.
-pub const HELD: [(&str, &str); 6] = [
+pub const HELD: [(&str, &str); 7] = [
     ("meshes", MESHES),
     ("bevel_meshes", BevelMesh::KEY),
+    ("worm_meshes", WormMesh::KEY),
     ("planetary_sets", SETS),
     ("chains", Chain::KEY),
     ("joints", Joint::KEY),

@@ -25,6 +25,7 @@ pub mod seal;
 mod slot;
 pub mod synchronizer;
 pub mod tooth_friction;
+pub mod worm_mesh;
 
 pub use answers::Answers;
 pub use law::{Follows, Law, ROUNDED, settle};

@@ -61,6 +61,7 @@ use crate::mechanism::Slot;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart};
 use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
+use crate::mechanism::worm_mesh::{AtRest as WormAtRest, WormMesh, WormPart};
 use crate::registry::{Instance, Placed};
 use crate::thermal::Housing;
 use crate::thermal::network::Network;
@@ -138,6 +139,11 @@ pub(crate) enum MeshLaw {
         part: Arc<BevelPart>,
         model: Slot<BevelMesh>,
     },
+    /// A worm and its wheel.
+    Worm {
+        part: Arc<WormPart>,
+        model: Slot<WormMesh>,
+    },
     /// No loss.
     Lossless,
 }
@@ -148,6 +154,7 @@ impl MeshLaw {
         match self {
             Self::Cylindrical { model, .. } => model.off,
             Self::Bevel { model, .. } => model.off,
+            Self::Worm { model, .. } => model.off,
             Self::Lossless => true,
         }
     }
@@ -157,6 +164,7 @@ impl MeshLaw {
         match self {
             Self::Cylindrical { model, .. } => model.notes,
             Self::Bevel { model, .. } => model.notes,
+            Self::Worm { model, .. } => model.notes,
             Self::Lossless => NoteBase::default(),
         }
     }
@@ -165,7 +173,7 @@ impl MeshLaw {
     pub fn cylindrical(&self) -> Option<&MeshPart> {
         match self {
             Self::Cylindrical { part, .. } => Some(part),
-            Self::Bevel { .. } | Self::Lossless => None,
+            Self::Bevel { .. } | Self::Worm { .. } | Self::Lossless => None,
         }
     }
 }
@@ -394,6 +402,13 @@ impl Transmission {
     pub fn crossed_meshes(&self) -> impl Iterator<Item = (&str, &CrossedTeeth)> {
         let meshes = self.meshes.iter();
         meshes.filter_map(|m| Some((m.seat.path.as_str(), m.seat.crossed()?.as_ref())))
+    }
+    /// Path of every worm drive with its geometry, and its friction at rest if its model knows it.
+    pub fn worms(&self) -> impl Iterator<Item = (&str, &WormPart, Option<WormAtRest>)> {
+        self.meshes.iter().filter_map(|mesh| match &mesh.law {
+            MeshLaw::Worm { part, model } => Some((mesh.seat.path.as_str(), part.as_ref(), model.at_rest(part))),
+            _ => None,
+        })
     }
     /// Ids of both gears of a mesh by its path; `None` if there is no such mesh.
     pub fn gears_of_mesh(&self, path: &str) -> Vec<&str> {

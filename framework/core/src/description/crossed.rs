@@ -7,8 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use super::bevel_teeth::BevelTeeth;
 use super::gears::default_one;
+use crate::geometry::WormProfile;
 use crate::mechanism::ModelRef;
 use crate::mechanism::bevel_mesh::BevelMesh;
+use crate::mechanism::worm_mesh::{WheelMaterial, WormLubrication, WormMesh};
 
 /// A pair of bevel gears, or of hypoid gears if the axes do not intersect.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -193,6 +195,15 @@ pub struct WormMeshEntry {
     #[serde(default = "twenty_degrees")]
     #[schemars(range(min = 10.0, max = 35.0))]
     pub pressure_angle: f64,
+    /// Profile of the threads.
+    #[serde(default)]
+    pub profile: WormProfile,
+    /// Material of the rim of the wheel.
+    #[serde(default)]
+    pub material: WheelMaterial,
+    /// How oil comes to the mesh.
+    #[serde(default)]
+    pub lubrication: WormLubrication,
     /// Profile shift coefficient of the wheel; only compared with that of the axes. [-]
     #[schemars(range(min = -3.0, max = 3.0))]
     pub profile_shift: Option<f64>,
@@ -208,6 +219,8 @@ pub struct WormMeshEntry {
     #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
+    /// Loss model of the mesh; default: that of `models`.
+    pub model: Option<ModelRef<WormMesh>>,
 }
 
 /// Two cylindrical gears on axes that cross.

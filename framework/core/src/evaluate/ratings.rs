@@ -15,6 +15,7 @@ use crate::loss::{Extent, Notebook, Seen, Trace, Undefined};
 use crate::mechanism::Mechanism as _;
 use crate::mechanism::bevel_mesh::BevelMesh;
 use crate::mechanism::gear_mesh::GearMesh;
+use crate::mechanism::worm_mesh::WormMesh;
 use crate::rating::{Rated, RatingSlot};
 use crate::registry::{Build, BuiltRating, Files, Instance, RatingPlugin};
 use crate::resolve::{RATINGS, Resolved};
@@ -41,6 +42,7 @@ enum Kind {
     Component(usize, BuiltRating),
     Mesh(usize, RatingSlot<GearMesh>),
     BevelMesh(usize, RatingSlot<BevelMesh>),
+    WormMesh(usize, RatingSlot<WormMesh>),
 }
 
 /// A rating of a component at one point.
@@ -95,6 +97,14 @@ impl Ratings {
                         build
                             .rating::<BevelMesh>(&path, part, &plugin.entry, value)
                             .map(|built| Some(Kind::BevelMesh(i, built)))
+                    }
+                    PartKind::Mesh(i) if plugin.entry.mechanism == WormMesh::KEY => {
+                        let MeshLaw::Worm { part, .. } = &transmission.meshes[i].law else {
+                            continue;
+                        };
+                        build
+                            .rating::<WormMesh>(&path, part, &plugin.entry, value)
+                            .map(|built| Some(Kind::WormMesh(i, built)))
                     }
                     // Drags are rated with their gears.
                     PartKind::Mesh(_) | PartKind::Drag(_) | PartKind::Transfer(_) => continue,
@@ -217,6 +227,10 @@ impl Solution<'_> {
                 );
                 rating.rate(&muted.with(|to| to.notes = book.notes(rating.notes)))
             }
+            Kind::WormMesh(i, rating) => match self.worm_mesh_at(*i) {
+                Some(muted) => rating.rate(&muted.with(|to| to.notes = book.notes(rating.notes))),
+                None => Ok(Rated::default()),
+            },
             Kind::BevelMesh(i, rating) => match self.bevel_mesh_at(*i) {
                 Some(muted) => rating.rate(&muted.with(|to| to.notes = book.notes(rating.notes))),
                 None => Ok(Rated::default()),

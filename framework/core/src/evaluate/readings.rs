@@ -9,6 +9,7 @@ use crate::mechanism::Mechanism;
 use crate::mechanism::bevel_mesh::BevelMesh;
 use crate::mechanism::gear_drag::GearDrag;
 use crate::mechanism::gear_mesh::GearMesh;
+use crate::mechanism::worm_mesh::WormMesh;
 use crate::transmission::{PartKind, RowName};
 
 /// One quantity of a context.
@@ -62,10 +63,12 @@ impl Solution<'_> {
         let state = self.state();
         match t.parts[part].kind {
             PartKind::Component(i) => t.components[i].placed.readings(&state),
-            PartKind::Mesh(i) => match self.bevel_mesh_at(i) {
-                Some(at) => readings::<BevelMesh>(&at),
-                None => self.mesh_at(i).map_or_else(Vec::new, |at| readings::<GearMesh>(&at)),
-            },
+            PartKind::Mesh(i) => {
+                let bevel = self.bevel_mesh_at(i).map(|at| readings::<BevelMesh>(&at));
+                let worm = || self.worm_mesh_at(i).map(|at| readings::<WormMesh>(&at));
+                let cylindrical = || self.mesh_at(i).map(|at| readings::<GearMesh>(&at));
+                bevel.or_else(worm).or_else(cylindrical).unwrap_or_default()
+            }
             PartKind::Drag(i) => readings::<GearDrag>(&t.drag_at(i, &state, &Notebook::CLOSED)),
             PartKind::Transfer(i) => self.transfer_readings(i),
         }

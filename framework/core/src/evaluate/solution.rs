@@ -7,6 +7,7 @@ use crate::loads::{PairLoads, SupportLoad, ToothForces};
 use crate::loss::{Extent, Loss, Notebook, Trace, Undefined};
 use crate::mechanism::bevel_mesh::BevelMeshAt;
 use crate::mechanism::gear_mesh::GearMeshAt;
+use crate::mechanism::worm_mesh::WormMeshAt;
 use crate::real::{Points, Real};
 use crate::transmission::{Case, MeshLaw, PartInfo, PartKind, Transmission};
 
@@ -424,6 +425,21 @@ impl Solution<'_> {
             Some(at) => Some(at.on_flank(at.flank().ok()?)),
             None => self.mesh_at(mesh),
         }
+    }
+
+    /// The context of the model of a worm drive, with muted notes; `None` of other meshes.
+    pub fn worm_mesh_at(&self, mesh: usize) -> Option<WormMeshAt<'_>> {
+        let (s, state) = (self.scratch, self.state());
+        let MeshLaw::Worm { part, .. } = &self.transmission.meshes[mesh].law else {
+            return None;
+        };
+        Some(self.transmission.worm_mesh_at(
+            (mesh, part),
+            s.models.tangential[mesh],
+            s.work.drives[mesh],
+            &state,
+            &Notebook::CLOSED,
+        ))
     }
 
     /// Force of the teeth of a mesh on axes that cross on the first gear, with friction; that on the second gear is opposite. `None` of

@@ -27,11 +27,13 @@ use crate::document::{Diagnostic, classify};
 use crate::hydraulics::Hydraulics;
 use crate::language::Language;
 use crate::loads::ShaftLoads;
-use crate::mechanism::clutch::Clutch;
+
+use crate::mechanism::bearing::Bearing;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart, FlankSurfaces};
 use crate::mechanism::gear_mesh::{GearMesh, MeshOil, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::mechanism::seal::Seal;
+use crate::mechanism::worm_mesh::{Described, WormMesh, WormPart};
 use crate::mechanism::{Component as _, Mechanism, ModelRef, Slot};
 use crate::registry::{Build, Files, Memory};
 use crate::resolve::{Resolved, ValueSource};
@@ -261,6 +263,8 @@ struct Frame {
     /// Unequal load sharing of each planet body.
     sharing: Vec<Option<Sharing>>,
     nodes: NodeNames,
+    /// What is described on each member beside gears.
+    described: Vec<Described>,
 }
 
 impl Frame {
@@ -283,6 +287,7 @@ impl Frame {
         let transfers = transfers::seats(&entry, &members, found, warnings);
         let nodes = NodeNames::new(&entry, found);
         classify(found, codes::NETWORK);
+        let described = members.names.iter().map(|shaft| described(&resolved.value, shaft)).collect();
         Ok(Self {
             entry,
             members,
@@ -293,6 +298,7 @@ impl Frame {
             transfers,
             sharing,
             nodes,
+            described,
         })
     }
 }
@@ -890,7 +896,20 @@ fn crossed_model(
             });
             MeshLaw::Bevel { part, model }
         }
-        None => MeshLaw::Lossless,
+        None => match worm_law(seat, frame, oils.lubricant(oil), build)? {
+            Some((part, model)) => {
+                parts.push(PartInfo {
+                    path: seat.path.clone(),
+                    mechanism: WormMesh::KEY,
+                    kind: PartKind::Mesh(number),
+                    count: seat.count,
+                    loss_factor,
+                    notes: model.notes,
+                });
+                MeshLaw::Worm { part, model }
+            }
+            None => MeshLaw::Lossless,
+        },
     };
     Ok(Some(MeshModel {
         bodies: None,
@@ -928,6 +947,48 @@ fn bevel_law(
     let choice = written.model.as_ref().unwrap_or(&none);
     let model = build.slot_at::<BevelMesh>(&format!("{}.model", seat.path), &part, &choice.value)?;
     Ok(Some((part, model)))
+}
+
+/// Part and model of a worm drive; none of another mesh.
+fn worm_law(
+    seat: &MeshSeat,
+    frame: &Frame,
+    oil: Option<MeshOil>,
+    build: &mut Build<'_>,
+) -> Result<Option<(Arc<WormPart>, Slot<WormMesh>)>, Diagnostic> {
+    let entry = &frame.entry;
+    let id = seat.path.strip_prefix("worm_meshes.");
+    let written = id.and_then(|id| entry.worm_meshes.get(id));
+    let pair = seat.crossed().and_then(|teeth| teeth.worm);
+    let (Some(written), Some(pair)) = (written, pair) else {
+        return Ok(None);
+    };
+    let oil = oil.and_then(|oil| entry.lubricants.get(&oil.id));
+    let part = WormPart {
+        pair,
+        material: written.material,
+        ra: seat.ra[0],
+        lubrication: written.lubrication,
+        oil: oil.and_then(|oil| oil.kind).unwrap_or_default(),
+        described: frame.described[seat.members[0]].with(frame.described[seat.members[1]]),
+    };
+    let part = build.part_again(&seat.path, part);
+    let none = ModelRef::<WormMesh>::new("none".into());
+    let choice = written.model.as_ref().unwrap_or(&none);
+    let model = build.slot_at::<WormMesh>(&format!("{}.model", seat.path), &part, &choice.value)?;
+    Ok(Some((part, model)))
+}
+
+/// What the sections of a resolved document describe on a shaft beside its gears.
+fn described(resolved: &Value, shaft: &str) -> Described {
+    let has = |section: &str| {
+        let entries = resolved.get(section).and_then(Value::as_object);
+        entries.is_some_and(|entries| entries.values().any(|own| own["shaft"] == shaft))
+    };
+    Described {
+        bearings: has(Bearing::SECTION),
+        seals: has(Seal::SECTION),
+    }
 }
 
 /// Reports seals that the oil at rest covers.

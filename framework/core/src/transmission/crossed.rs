@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::axis::Axis;
 use crate::description::BevelPair;
-use crate::geometry::Pair;
+use crate::geometry::{Pair, WormPair};
 use crate::geometry::crossed::{Blank, Flank, MeanPoint, PitchCones, ToothPath, VirtualPair};
 
 /// Kind of a pair on axes that cross.
@@ -49,6 +49,8 @@ pub struct CrossedTeeth {
     pub blank: Option<Blank>,
     /// Drive and coast flanks of bevel gears as pairs of surfaces.
     pub pairs: Option<[Pair; 2]>,
+    /// Geometry of a worm and its wheel.
+    pub worm: Option<WormPair>,
     /// Normal pressure angles of the drive and the coast flank. \[rad\]
     pub pressure_angle: [f64; 2],
     /// True if the pinion has the left hand, so that the pair is the mirror image of the frame.
@@ -99,6 +101,7 @@ pub(super) struct Unplaced {
     pub cones: PitchCones,
     pub blank: Option<Blank>,
     pub pairs: Option<[Pair; 2]>,
+    pub worm: Option<WormPair>,
     /// Pressure angles of the cutter and the share of the limit pressure angle in it. \[rad\]
     pub pressure_angle: [f64; 2],
     pub limit_factor: f64,
@@ -140,6 +143,7 @@ impl CrossedTeeth {
             cones,
             blank,
             pairs,
+            worm,
             pressure_angle,
             limit_factor,
             left,
@@ -210,6 +214,7 @@ impl CrossedTeeth {
             frame,
             blank,
             pairs,
+            worm,
             pressure_angle,
             left,
             mean_point,

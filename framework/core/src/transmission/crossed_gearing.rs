@@ -11,6 +11,8 @@ use crate::codes;
 use crate::description::gears::{Faces, Hand};
 use crate::description::{BevelAxes, BevelFault, BevelMeshEntry, CrossedHelicalMeshEntry, GearKind, WormMeshEntry};
 use crate::document::Diagnostic;
+use crate::mechanism::worm_mesh::WormEntry;
+use crate::geometry::{WormPair, WormSpec};
 use crate::geometry::crossed::{Blank, MeanPoint, PitchCones};
 
 /// Largest difference between a stated length and the one that follows. \[m\]
@@ -364,6 +366,7 @@ impl Gearing<'_> {
             cones,
             blank: Some(blank),
             pairs: Some(flanks),
+            worm: None,
             pressure_angle: [angles.drive, angles.coast],
             limit_factor: angles.limit_factor,
             left,
@@ -388,15 +391,11 @@ impl Gearing<'_> {
             let message = format!("the axes enclose {:.4} deg", angle.to_degrees());
             return self.impossible(path, message, "a worm and its wheel have axes at 90 deg");
         }
-        let diameter = match (mesh.diameter_factor, mesh.worm_diameter) {
-            (Some(factor), None) => factor * mesh.module,
-            (None, Some(diameter)) => diameter,
-            _ => {
-                return self.impossible(
-                    path,
-                    "the reference diameter of the worm is stated not once".to_owned(),
-                    "state one of `diameter_factor` and `worm_diameter`",
-                );
+        let diameter = match WormEntry::reference_diameter(mesh.module, mesh.diameter_factor, mesh.worm_diameter) {
+            Ok(diameter) => diameter,
+            Err(message) => {
+                let help = "state one of `diameter_factor` and `worm_diameter`";
+                return self.impossible(path, message.to_owned(), help);
             }
         };
         let z = on.gears.map(|gear| self.gears[gear].z);
@@ -428,10 +427,16 @@ impl Gearing<'_> {
                 "correct the axes, the module or the diameter of the worm",
             );
         }
-        // Rolling is without slip where the worm is as far from its axis as the reference cylinder of the wheel leaves.
-        let rolling = diameter + 2.0 * shift * mesh.module;
-        let lead = (f64::from(z[0]) * mesh.module / rolling).atan();
-        let cones = PitchCones::cylinders(z, mesh.module * lead.cos(), [FRAC_PI_2 - lead, -lead]);
+        let worm = WormPair::new(WormSpec {
+            z,
+            module: mesh.module,
+            worm_diameter: diameter,
+            pressure_angle: mesh.pressure_angle,
+            profile: mesh.profile,
+            profile_shift: shift,
+            facewidth: self.gears[on.gears[1]].facewidth,
+        });
+        let cones = worm.cylinders();
         let along = along_of_cylinders(&cones, left, signed);
         self.seat(
             path,
@@ -441,6 +446,7 @@ impl Gearing<'_> {
                 cones,
                 blank: None,
                 pairs: None,
+                worm: Some(worm),
                 pressure_angle: [mesh.pressure_angle; 2],
                 limit_factor: 0.0,
                 left,
@@ -501,6 +507,7 @@ impl Gearing<'_> {
                 cones,
                 blank: None,
                 pairs: None,
+                worm: None,
                 pressure_angle: [mesh.pressure_angle; 2],
                 limit_factor: 0.0,
                 left,
