@@ -49,3 +49,6 @@ pub(crate) fn of_friction<R: Real>(
     let watts = at.show("P_Vz", "W", input * (R::constant(1.0) - efficiency));
     Ok(Loss::POWERS.with(&SLIDING, R::select(idle, R::ZERO, watts)))
 }
+
+#[cfg(test)]
+mod tests;

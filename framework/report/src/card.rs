@@ -1,5 +1,7 @@
 //! Key data of a gearbox: its stages and teeth, its bearings and their pairs, the ratio of each gear, its oil.
 
+use gearloss_framework::geometry::Holding;
+use gearloss_framework::mechanism::worm_mesh::{AtRest, WormPart};
 use gearloss_framework::transmission::{ChainStage, CrossedStage, Stage, Transmission};
 use gearloss_studies::bearings::{BearingCard, bearing_cards};
 use gearloss_studies::checked::CheckedGearbox;
@@ -22,6 +24,10 @@ pub fn card(checked: &CheckedGearbox) -> String {
     if !crossed.is_empty() {
         text.push_str(&crossed_table(&crossed));
     }
+    for line in worm_lines(transmission) {
+        text.push_str(&line);
+        text.push('\n');
+    }
     let chains: Vec<ChainStage> = transmission.chain_stages().collect();
     if !chains.is_empty() {
         text.push_str(&chain_table(&chains));
@@ -42,6 +48,36 @@ pub fn card(checked: &CheckedGearbox) -> String {
     }
     let lines: Vec<&str> = text.lines().collect();
     format!("  {}\n", lines.join("\n  "))
+}
+
+/// What determines each worm drive, and whether it holds a load at rest.
+fn worm_lines(transmission: &Transmission) -> Vec<String> {
+    let percent = |efficiency: f64| format!("{:.1} %", 100.0 * efficiency);
+    let line = |(path, part, rest): (&str, &WormPart, Option<AtRest>)| {
+        let pair = &part.pair;
+        let mut line = format!(
+            "{path}: worm {}/{}, lead angle {:.3} deg, q {}, a {} mm",
+            pair.spec.z[0],
+            pair.spec.z[1],
+            pair.lead_angle.to_degrees(),
+            significant(pair.diameter_factor()),
+            significant(1e3 * pair.centre_distance),
+        );
+        if let Some(rest) = rest {
+            let holding = match rest.holding() {
+                Holding::SelfLocking => "self-locking: the wheel cannot set the worm in motion",
+                Holding::Doubtful => "self-locking is doubtful: vibration may release it",
+                Holding::None => "not self-locking: the wheel can drive the worm",
+            };
+            line.push_str(&format!(
+                "; at rest friction {}, efficiency {} (worm drives), {holding}",
+                significant(rest.friction),
+                percent(rest.efficiency[0]),
+            ));
+        }
+        line
+    };
+    transmission.worms().map(line).collect()
 }
 
 /// One line for each gear: the ratio from the reference port to each other port.

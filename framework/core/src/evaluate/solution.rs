@@ -176,6 +176,20 @@ impl Solution<'_> {
         self.scratch.work.doubtful().filter_map(paths)
     }
 
+    /// Paths of the worm drives in which the wheel pushes and cannot drive the worm: their loss is at least the power of the wheel.
+    pub fn locked_worms(&self) -> impl Iterator<Item = &str> {
+        let t = self.transmission;
+        let locked = |mesh: &usize| {
+            let Some(at) = self.worm_mesh_at(*mesh) else {
+                return false;
+            };
+            let loss = self.scratch.models.mesh_losses[*mesh].as_ref();
+            let watts = loss.map_or(0.0, |loss| loss.total_watts(at.speed));
+            !at.worm_drives() && at.input() > 0.0 && watts >= at.input()
+        };
+        (0..t.meshes.len()).filter(locked).map(|mesh| t.meshes[mesh].seat.path.as_str())
+    }
+
     /// Why a loss is undefined: its part and the reason.
     pub fn undefined(&self) -> Option<(&PartInfo, Undefined)> {
         self.scratch

@@ -78,7 +78,7 @@ pub(super) struct Feedback {
     pub response: Vec<f64>,
     /// The unknown that it depends on most: place among the leads.
     pub lead: usize,
-    /// What a unit of it takes from this unknown: one for a mesh, whose lost multiplier is part of its multiplier.
+    /// What a unit of it takes from this unknown: one for a mesh, whose lost multiplier is part of its multiplier, and half of that for a steep one.
     pub gain: f64,
 }
 
@@ -186,13 +186,13 @@ impl Block {
                 block.leads.push(lead);
                 block.leads.len() - 1
             });
-            let is_mesh = *law < flow.meshes.len();
+            let mesh = flow.meshes.get(*law);
             block.feedback.push(Feedback {
                 law: *law,
-                gain: if is_mesh {
-                    1.0
-                } else {
-                    response[block.leads[lead]].abs()
+                gain: match mesh {
+                    Some(mesh) if mesh.steep => 0.5,
+                    Some(_) => 1.0,
+                    None => response[block.leads[lead]].abs(),
                 },
                 response,
                 lead,

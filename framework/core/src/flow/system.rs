@@ -23,6 +23,8 @@ pub struct MeshRow {
     pub sz2: f64,
     /// Column of the carrier.
     pub carrier: Option<usize>,
+    /// True if it may lose more than half of its power and still turn, as a worm drive: its loss is followed up to all of the power.
+    pub steep: bool,
 }
 
 /// Torque split of a member between two rows: `part_b * torque_a = part_a * torque_b`.

@@ -42,6 +42,7 @@ impl Rig {
             second: Some(second),
             sz2,
             carrier,
+            steep: zeta > 0.5,
         };
         self.rows.push(Row::mesh(Some(first), z1, Some(second), sz2, carrier));
         self.meshes.push((mesh, zeta));

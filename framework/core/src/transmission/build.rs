@@ -30,6 +30,7 @@ use crate::loads::ShaftLoads;
 
 use crate::mechanism::bearing::Bearing;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart, FlankSurfaces};
+use crate::mechanism::clutch::Clutch;
 use crate::mechanism::gear_mesh::{GearMesh, MeshOil, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::mechanism::seal::Seal;

@@ -256,6 +256,7 @@ fn all_open(
             second: Some(mesh.members[1]),
             sz2: mesh.sign() * z2,
             carrier: mesh.carrier,
+            steep: mesh.crossed().is_some(),
         };
         let speeds = Row::mesh(row.first, row.z1, row.second, row.sz2, row.carrier);
         state.train.rows.push(speeds);

@@ -18,7 +18,7 @@ pub struct SelfLocking {
     pub from: Vec<String>,
     /// Ports at which the power would leave.
     pub to: Vec<String>,
-    /// Paths of the meshes that lock; empty if a torque at another port maintains the equilibrium.
+    /// Paths of the meshes that lock; of worm drives only, if a torque at another port maintains the equilibrium.
     pub meshes: Vec<String>,
     /// Efficiency in the other direction; absent if there is none.
     #[serde(skip)]
@@ -69,6 +69,7 @@ pub fn self_locking(
         if before <= 0.0 || harder != Status::Dragged || pushed(&after) <= before {
             return None;
         }
+        meshes.extend(solution.locked_worms().map(str::to_owned));
         helping = to
             .iter()
             .map(|port| (t.ports()[*port].name.clone(), solution.torque(*port)))

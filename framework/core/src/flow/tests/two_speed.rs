@@ -231,3 +231,13 @@ fn s2_six_shafts_ideal() {
         close(*value, printed, printed);
     }
 }
+
+/// As a worm drive with an efficiency of 17 %, whose wheel has a given torque.
+#[test]
+fn a_loss_of_most_of_the_power_is_followed_from_the_driven_side() {
+    let rig = Rig::new(2).mesh(0, 1.0, 1, 40.0, None, 0.83);
+    let solved = solve(&rig, &[0, 1], &[(0, 100.0)], &[(1, 40.0)]);
+    close(solved.work.ports[0], 1.0 / 0.17, 1.0);
+    assert_eq!(solved.status(&[0, 1]), Status::Drive);
+    assert!(solved.passes() <= 3, "{:?}", solved.outcome);
+}
