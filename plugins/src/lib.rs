@@ -11,6 +11,7 @@ pub mod chain;
 mod checks;
 pub mod clutch;
 pub mod convection;
+pub mod crossed_helical_mesh;
 pub mod cycles;
 pub mod differential;
 mod efficiency;

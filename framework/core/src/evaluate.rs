@@ -32,6 +32,7 @@ use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad, ToothForces};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
 use crate::mechanism::Answers;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelMeshAt, BevelPart};
+use crate::mechanism::crossed_helical_mesh::{CrossedHelicalMesh, CrossedHelicalMeshAt};
 use crate::mechanism::gear_drag::{GearDrag, GearDragAt};
 use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use crate::mechanism::worm_mesh::{WormMesh, WormMeshAt, WormPart};
@@ -651,7 +652,10 @@ impl Transmission {
                 let at = self.worm_mesh_at((index, part), tangential, drives, state, book);
                 R::answer::<WormMesh>(&**model, &at)
             }
-            MeshLaw::Lossless => Ok(Loss::POWERS),
+            MeshLaw::CrossedHelical { part, model } => {
+                let mesh = self.mesh_at((index, &part.flanks), tangential, drives, state, book);
+                R::answer::<CrossedHelicalMesh>(&**model, &CrossedHelicalMeshAt::of_flanks(part, &mesh))
+            }
         };
         accepted(answer, R::ZERO, live)
     }

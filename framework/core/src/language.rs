@@ -20,6 +20,7 @@ use crate::document::{
 use crate::mechanism::Mechanism;
 use crate::mechanism::bevel_mesh::BevelMesh;
 use crate::mechanism::chain::Chain;
+use crate::mechanism::crossed_helical_mesh::CrossedHelicalMesh;
 use crate::mechanism::differential::Differential;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::GearMesh;
@@ -37,10 +38,11 @@ pub const SETS: &str = PlanetaryDrag::KEY;
 /// Section of differentials, which need no model.
 pub(crate) const DIFFERENTIALS: &str = "differentials";
 /// Mechanisms whose models are in sections of the framework itself: section and key.
-pub const HELD: [(&str, &str); 7] = [
+pub const HELD: [(&str, &str); 8] = [
     ("meshes", MESHES),
     ("bevel_meshes", BevelMesh::KEY),
     ("worm_meshes", WormMesh::KEY),
+    ("crossed_helical_meshes", CrossedHelicalMesh::KEY),
     ("planetary_sets", SETS),
     ("chains", Chain::KEY),
     ("joints", Joint::KEY),

@@ -9,6 +9,7 @@ pub mod bearing;
 pub mod bevel_mesh;
 pub mod chain;
 pub mod clutch;
+pub mod crossed_helical_mesh;
 pub(crate) mod differences;
 pub mod differential;
 pub mod gear_drag;

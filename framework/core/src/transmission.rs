@@ -59,6 +59,7 @@ use crate::loads::{ShaftLoads, StaticRating};
 use crate::loss::NoteBase;
 use crate::mechanism::Slot;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart};
+use crate::mechanism::crossed_helical_mesh::{CrossedHelicalMesh, CrossedHelicalPart};
 use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::worm_mesh::{AtRest as WormAtRest, WormMesh, WormPart};
@@ -144,8 +145,11 @@ pub(crate) enum MeshLaw {
         part: Arc<WormPart>,
         model: Slot<WormMesh>,
     },
-    /// No loss.
-    Lossless,
+    /// Crossed helical gears.
+    CrossedHelical {
+        part: Arc<CrossedHelicalPart>,
+        model: Slot<CrossedHelicalMesh>,
+    },
 }
 
 impl MeshLaw {
@@ -155,7 +159,7 @@ impl MeshLaw {
             Self::Cylindrical { model, .. } => model.off,
             Self::Bevel { model, .. } => model.off,
             Self::Worm { model, .. } => model.off,
-            Self::Lossless => true,
+            Self::CrossedHelical { model, .. } => model.off,
         }
     }
 
@@ -165,7 +169,7 @@ impl MeshLaw {
             Self::Cylindrical { model, .. } => model.notes,
             Self::Bevel { model, .. } => model.notes,
             Self::Worm { model, .. } => model.notes,
-            Self::Lossless => NoteBase::default(),
+            Self::CrossedHelical { model, .. } => model.notes,
         }
     }
 
@@ -173,7 +177,7 @@ impl MeshLaw {
     pub fn cylindrical(&self) -> Option<&MeshPart> {
         match self {
             Self::Cylindrical { part, .. } => Some(part),
-            Self::Bevel { .. } | Self::Worm { .. } | Self::Lossless => None,
+            Self::Bevel { .. } | Self::Worm { .. } | Self::CrossedHelical { .. } => None,
         }
     }
 }

@@ -278,7 +278,6 @@ mod tests {
             tip_diameter: 176.251e-3,
             root_diameter: 169e-3,
             contact_height: 0.09,
-            pitch_angle: 0.0,
         };
         DragPart {
             gear,

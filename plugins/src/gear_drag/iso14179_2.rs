@@ -199,7 +199,6 @@ mod tests {
             tip_diameter: diameter + 4e-3,
             root_diameter: diameter - 4e-3,
             contact_height: 90e-3,
-            pitch_angle: 0.0,
         };
         DragPart {
             gear: body(31, 0.056),

@@ -10,6 +10,7 @@ use super::gears::default_one;
 use crate::geometry::WormProfile;
 use crate::mechanism::ModelRef;
 use crate::mechanism::bevel_mesh::BevelMesh;
+use crate::mechanism::crossed_helical_mesh::CrossedHelicalMesh;
 use crate::mechanism::worm_mesh::{WheelMaterial, WormLubrication, WormMesh};
 
 /// A pair of bevel gears, or of hypoid gears if the axes do not intersect.
@@ -239,6 +240,14 @@ pub struct CrossedHelicalMeshEntry {
     /// Helix angles of both gears. Of equal hands they add up to the angle between the axes, else their difference is that angle. [deg]
     #[schemars(inner(range(min = 0.0, max = 85.0)))]
     pub helix_angle: [f64; 2],
+    /// Young's modulus of both gears. [GPa]
+    #[serde(default = "crate::mechanism::gear_mesh::steel")]
+    #[schemars(range(min = 0.1, max = 1000.0))]
+    pub elastic_modulus: f64,
+    /// Poisson's ratio of both gears. [-]
+    #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
+    #[schemars(range(min = 0.0, max = 0.49))]
+    pub poisson: f64,
     /// Oil; default: that of the housing.
     #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: Option<String>,
@@ -251,4 +260,6 @@ pub struct CrossedHelicalMeshEntry {
     #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub loss_factor: f64,
+    /// Loss model of the mesh; default: that of `models`.
+    pub model: Option<ModelRef<CrossedHelicalMesh>>,
 }

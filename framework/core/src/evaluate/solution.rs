@@ -6,6 +6,7 @@ use crate::geometry::crossed::Flank;
 use crate::loads::{PairLoads, SupportLoad, ToothForces};
 use crate::loss::{Extent, Loss, Notebook, Trace, Undefined};
 use crate::mechanism::bevel_mesh::BevelMeshAt;
+use crate::mechanism::crossed_helical_mesh::CrossedHelicalMeshAt;
 use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::mechanism::worm_mesh::WormMeshAt;
 use crate::real::{Points, Real};
@@ -439,6 +440,22 @@ impl Solution<'_> {
             Some(at) => Some(at.on_flank(at.flank().ok()?)),
             None => self.mesh_at(mesh),
         }
+    }
+
+    /// The context of the model of a crossed helical mesh, with muted notes; `None` of other meshes.
+    pub fn crossed_helical_mesh_at(&self, mesh: usize) -> Option<CrossedHelicalMeshAt<'_>> {
+        let (s, state) = (self.scratch, self.state());
+        let MeshLaw::CrossedHelical { part, .. } = &self.transmission.meshes[mesh].law else {
+            return None;
+        };
+        let flanks = self.transmission.mesh_at(
+            (mesh, &part.flanks),
+            s.models.tangential[mesh],
+            s.work.drives[mesh],
+            &state,
+            &Notebook::CLOSED,
+        );
+        Some(CrossedHelicalMeshAt::of_flanks(part, &flanks))
     }
 
     /// The context of the model of a worm drive, with muted notes; `None` of other meshes.

@@ -13,6 +13,7 @@
 mod blank;
 mod crossed_point;
 mod flank_pair;
+mod helical_pair;
 mod mean_point;
 mod motion;
 mod pitch_cones;

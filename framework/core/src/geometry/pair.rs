@@ -338,10 +338,25 @@ impl Pair {
         self.facewidth / self.cos_base_helix
     }
 
-    /// Normal force in N on one pair of teeth over the length of its line of contact: F_bn/(b/cos beta_b) = F_bt/b. \[N/m\]
+    /// Normal force in N on one pair of teeth over the length of its line of contact: F_bn/(b/cos beta_b) = F_bt/b. Of a point contact over 4/3 of
+    /// its long semi-axis. \[N/m\]
     #[inline(always)]
     pub fn line_load<R: Real>(&self, normal_force: R) -> R {
+        if let Some(semi_axis) = self.spot() {
+            let root = normal_force.cbrt();
+            return root * root * (0.75 / semi_axis);
+        }
         normal_force * (1.0 / self.line_length())
+    }
+
+    /// Long semi-axis of a point contact under one newton. \[m\]
+    fn spot(&self) -> Option<f64> {
+        self.crossed.as_ref()?.spot
+    }
+
+    /// True if the flanks touch in a point.
+    pub fn touches_in_a_point(&self) -> bool {
+        self.spot().is_some()
     }
 
     /// Computes the geometry.

@@ -128,15 +128,16 @@ impl<'a, R: Real> MeanFrictionAt<'a, R> {
         let normal_force = pair.normal_force(at.torque);
         let speed = at.speed.abs();
         let pitch_speed = speed * pair.working_radius[0];
+        let [line_load, of_pressure] = if pair.touches_in_a_point() {
+            [pair.line_load(normal_force); 2]
+        } else {
+            [tangential / pair.facewidth, normal_force / pair.line_length()]
+        };
         Self {
             part,
-            line_load: tangential / pair.facewidth,
+            line_load,
             normal_force,
-            pressure: hertz(
-                normal_force / pair.line_length(),
-                R::constant(part.modulus),
-                R::constant(pair.pitch_radius),
-            ),
+            pressure: hertz(of_pressure, R::constant(part.modulus), R::constant(pair.pitch_radius)),
             speed,
             pitch_speed,
             sum_speed: pitch_speed * 2.0 * pair.sin_working_angle,

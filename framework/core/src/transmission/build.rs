@@ -27,15 +27,15 @@ use crate::document::{Diagnostic, classify};
 use crate::hydraulics::Hydraulics;
 use crate::language::Language;
 use crate::loads::ShaftLoads;
-
 use crate::mechanism::bearing::Bearing;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart, FlankSurfaces};
 use crate::mechanism::clutch::Clutch;
+use crate::mechanism::crossed_helical_mesh::{CrossedHelicalMesh, CrossedHelicalPart};
 use crate::mechanism::gear_mesh::{GearMesh, MeshOil, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::mechanism::seal::Seal;
 use crate::mechanism::worm_mesh::{Described, WormMesh, WormPart};
-use crate::mechanism::{Component as _, Mechanism, ModelRef, Slot};
+use crate::mechanism::{Component as _, Mechanism, ModelRef};
 use crate::registry::{Build, Files, Memory};
 use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
@@ -863,6 +863,9 @@ fn crossed_common<'e>(entry: &'e GearboxEntry, path: &str) -> Option<(&'e Option
     })
 }
 
+/// The law of a mesh with the key of its mechanism.
+type KeyedLaw = (&'static str, MeshLaw);
+
 /// A mesh of gears on axes that cross, with its number.
 fn crossed_model(
     number: usize,
@@ -885,33 +888,25 @@ fn crossed_model(
     let Some(oil) = oils.oil(&seat.path, &common) else {
         return Ok(None);
     };
-    let law = match bevel_law(seat, entry, oils.lubricant(oil), build)? {
-        Some((part, model)) => {
-            parts.push(PartInfo {
-                path: seat.path.clone(),
-                mechanism: BevelMesh::KEY,
-                kind: PartKind::Mesh(number),
-                count: seat.count,
-                loss_factor,
-                notes: model.notes,
-            });
-            MeshLaw::Bevel { part, model }
-        }
-        None => match worm_law(seat, frame, oils.lubricant(oil), build)? {
-            Some((part, model)) => {
-                parts.push(PartInfo {
-                    path: seat.path.clone(),
-                    mechanism: WormMesh::KEY,
-                    kind: PartKind::Mesh(number),
-                    count: seat.count,
-                    loss_factor,
-                    notes: model.notes,
-                });
-                MeshLaw::Worm { part, model }
-            }
-            None => MeshLaw::Lossless,
-        },
+    let of_mesh = oils.lubricant(oil);
+    let mut law = bevel_law(seat, entry, of_mesh.clone(), build)?;
+    if law.is_none() {
+        law = worm_law(seat, frame, of_mesh.clone(), build)?;
+    }
+    if law.is_none() {
+        law = crossed_helical_law(seat, frame, of_mesh, build)?;
+    }
+    let Some((mechanism, law)) = law else {
+        return Ok(None);
     };
+    parts.push(PartInfo {
+        path: seat.path.clone(),
+        mechanism,
+        kind: PartKind::Mesh(number),
+        count: seat.count,
+        loss_factor,
+        notes: law.notes(),
+    });
     Ok(Some(MeshModel {
         bodies: None,
         loss_factor,
@@ -930,7 +925,7 @@ fn bevel_law(
     entry: &GearboxEntry,
     oil: Option<MeshOil>,
     build: &mut Build<'_>,
-) -> Result<Option<(Arc<BevelPart>, Slot<BevelMesh>)>, Diagnostic> {
+) -> Result<Option<KeyedLaw>, Diagnostic> {
     let id = seat.path.strip_prefix("bevel_meshes.");
     let written = id.and_then(|id| entry.bevel_meshes.get(id));
     let pair = seat.crossed().and_then(|teeth| teeth.bevel_pair());
@@ -947,7 +942,7 @@ fn bevel_law(
     let none = ModelRef::<BevelMesh>::new("none".into());
     let choice = written.model.as_ref().unwrap_or(&none);
     let model = build.slot_at::<BevelMesh>(&format!("{}.model", seat.path), &part, &choice.value)?;
-    Ok(Some((part, model)))
+    Ok(Some((BevelMesh::KEY, MeshLaw::Bevel { part, model })))
 }
 
 /// Part and model of a worm drive; none of another mesh.
@@ -956,7 +951,7 @@ fn worm_law(
     frame: &Frame,
     oil: Option<MeshOil>,
     build: &mut Build<'_>,
-) -> Result<Option<(Arc<WormPart>, Slot<WormMesh>)>, Diagnostic> {
+) -> Result<Option<KeyedLaw>, Diagnostic> {
     let entry = &frame.entry;
     let id = seat.path.strip_prefix("worm_meshes.");
     let written = id.and_then(|id| entry.worm_meshes.get(id));
@@ -977,7 +972,40 @@ fn worm_law(
     let none = ModelRef::<WormMesh>::new("none".into());
     let choice = written.model.as_ref().unwrap_or(&none);
     let model = build.slot_at::<WormMesh>(&format!("{}.model", seat.path), &part, &choice.value)?;
-    Ok(Some((part, model)))
+    Ok(Some((WormMesh::KEY, MeshLaw::Worm { part, model })))
+}
+
+/// Part and model of a crossed helical mesh; none of another mesh.
+fn crossed_helical_law(
+    seat: &MeshSeat,
+    frame: &Frame,
+    oil: Option<MeshOil>,
+    build: &mut Build<'_>,
+) -> Result<Option<KeyedLaw>, Diagnostic> {
+    let id = seat.path.strip_prefix("crossed_helical_meshes.");
+    let written = id.and_then(|id| frame.entry.crossed_helical_meshes.get(id));
+    let (Some(written), Some(teeth)) = (written, seat.crossed()) else {
+        return Ok(None);
+    };
+    let tips = seat.gears.map(|gear| 0.5 * frame.gears[gear].diameters[1]);
+    let part = CrossedHelicalPart::new(
+        &teeth.cones,
+        (written.pressure_angle, tips),
+        [seat.ra, seat.rq],
+        (written.elastic_modulus, written.poisson),
+    );
+    let mut part = part.map_err(|faults| {
+        let message = faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+        Diagnostic::error(&seat.path, message)
+            .code(codes::CROSSED)
+            .help("check tip diameters, module and helix angles")
+    })?;
+    part.flanks = part.flanks.with_oil(oil);
+    let part = build.part_again(&seat.path, part);
+    let none = ModelRef::<CrossedHelicalMesh>::new("none".into());
+    let choice = written.model.as_ref().unwrap_or(&none);
+    let model = build.slot_at::<CrossedHelicalMesh>(&format!("{}.model", seat.path), &part, &choice.value)?;
+    Ok(Some((CrossedHelicalMesh::KEY, MeshLaw::CrossedHelical { part, model })))
 }
 
 /// What the sections of a resolved document describe on a shaft beside its gears.

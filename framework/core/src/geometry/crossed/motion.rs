@@ -32,6 +32,8 @@ pub struct CrossedMotion {
     pub across: Vector2<f64>,
     /// Relative radius of curvature at the pitch point over that of the virtual cylinders.
     pub radius_factor: f64,
+    /// Of a point contact the long semi-axis under a force of one newton; it grows with the cube root of the force. \[m\]
+    pub spot: Option<f64>,
 }
 
 impl CrossedMotion {

@@ -46,6 +46,21 @@ impl ToothPath {
         }
     }
 
+    /// Of a flank with its ends along the normal and the direction of its line of contact, or of the long axis of a point contact.
+    pub(super) fn across_line(
+        frame: &MeanPoint,
+        flank_normal: Vector3<f64>,
+        ends: [f64; 2],
+        line: Vector3<f64>,
+    ) -> Self {
+        Self {
+            frame: *frame,
+            flank_normal,
+            across: flank_normal.cross(&line),
+            ends,
+        }
+    }
+
     /// Sliding velocity at a place along the path, over the speed of the first gear. \[m\]
     pub fn sliding(&self, s: f64) -> Vector3<f64> {
         let [first, second] = self.frame.velocities(self.flank_normal * s);
@@ -74,6 +89,7 @@ impl ToothPath {
             sliding: velocity(self.frame.sliding(), self.frame.turning().cross(&self.flank_normal)),
             across: in_plane(self.across),
             radius_factor,
+            spot: None,
         }
     }
 
