@@ -4,6 +4,8 @@ pub mod efficiency;
 mod flanks;
 pub mod mean_friction;
 pub mod path_integral;
+#[cfg(test)]
+mod tests;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::{LoadSharing, Pair};
