@@ -268,6 +268,7 @@ fn pictures() -> Vec<Picture> {
         "examples/two-speed-ev/gearbox.yaml",
         "examples/planetary-reducer/gearbox.yaml",
         "examples/two-products/theirs.yaml",
+        "examples/transfer-case/gearbox.yaml",
         "tests/cases/fine/input.yaml",
     ] {
         let gearbox = Gearbox::read(&language, &common::file(file)).unwrap();
@@ -318,6 +319,8 @@ fn parts(picture: &Picture) -> Vec<String> {
         "clutches",
         "auxiliaries",
         "differentials",
+        "chains",
+        "joints",
         "ports",
     ];
     let ids = |section: &str| {

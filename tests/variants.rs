@@ -13,7 +13,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 
 /// The gearboxes of the examples.
-const EXAMPLES: [&str; 7] = [
+const EXAMPLES: [&str; 8] = [
     "examples/two-speed-ev/gearbox.yaml",
     "examples/electric-drive-unit/gearbox.yaml",
     "examples/electric-drive-unit/gearbox-40.yaml",
@@ -21,6 +21,7 @@ const EXAMPLES: [&str; 7] = [
     "examples/planetary-reducer/gearbox.yaml",
     "examples/two-products/theirs.yaml",
     "examples/foreign-map/gearbox.yaml",
+    "examples/transfer-case/gearbox.yaml",
 ];
 
 /// A number of a resolved document that may be overridden: path, value in the documented unit, range.

@@ -4,7 +4,7 @@
 //! well designed drives under average conditions, 96 to 97 % to be reached under favourable ones, in the wording of an old handbook that
 //! dealers of chains repeat; the middle of the guaranteed range is 0.95. Toothed belts: up to 98 % is a common statement, without
 //! conditions. Both are independent of load, which no real drive is: at low torque the efficiency is lower. State the value of the maker
-//! with `efficiency` where you have one, and vary this one from 0.94 to 0.97 (silent chain) and from 0.95 to 0.98 (toothed belt).
+//! with `efficiency` where you have one, and vary this one from 0.94 to 0.97 (silent chain) and from 0.95 to 0.99 (toothed belt).
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
@@ -23,7 +23,7 @@ coefficients! {
         /// Efficiency of a silent chain.
         silent_chain = 0.95, in 0.94..=0.97;
         /// Efficiency of a toothed belt.
-        toothed_belt = 0.98, in 0.95..=0.98;
+        toothed_belt = 0.98, in 0.95..=0.99;
     }
 }
 
@@ -74,5 +74,5 @@ register!(Chain, "typical", Params,
     source: "handbook wording that dealers repeat (silent chains), common statement (toothed belts)",
     example: "{ type: typical }",
     part: "{ kind: silent_chain, z: [37, 37], pitch: 9.525 mm, links: 84 }",
-    evidence: [formula(Evidence::Recalled, "without conditions of measurement: 0.94 to 0.97 for silent chains, 0.95 to 0.98 for toothed belts")],
+    evidence: [formula(Evidence::Recalled, "without conditions of measurement: 0.94 to 0.97 for silent chains, 0.95 to 0.99 for toothed belts")],
     terms: [TYPICAL], prepare: prepare);
