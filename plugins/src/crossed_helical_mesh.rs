@@ -57,7 +57,10 @@ mod tests {
             "crossed_helical_mesh/point_contact",
             &format!("{{ model: {{ type: point_contact, tooth_friction: {{ type: constant, value: 0.05 }} }}, {at} }}"),
         );
-        let pitch = eval("crossed_helical_mesh/friction", &format!("{{ model: {{ type: friction, value: 0.05 }}, {at} }}"));
+        let pitch = eval(
+            "crossed_helical_mesh/friction",
+            &format!("{{ model: {{ type: friction, value: 0.05 }}, {at} }}"),
+        );
         let ratio = path.total / pitch.total;
         assert!((0.98..1.06).contains(&ratio), "{ratio}");
     }
@@ -81,7 +84,8 @@ lubricants: { oil: { viscosity: { kv40: 100 mm2/s, kv100: 11 mm2/s } } }
 housing: { oil: { lubricant: oil } }
 thermal: { mode: fixed, oil: 70 degC }
 ";
-        let gearbox = Gearbox::of_text(language(), text, "crossed.yaml", "").unwrap_or_else(|f| panic!("{}", f.render()));
+        let gearbox =
+            Gearbox::of_text(language(), text, "crossed.yaml", "").unwrap_or_else(|f| panic!("{}", f.render()));
         let t = gearbox
             .transmission(language(), &Choice::default())
             .unwrap_or_else(|f| panic!("{}", f.render()));
@@ -101,7 +105,11 @@ thermal: { mode: fixed, oil: 70 degC }
         // If the second gear drives, the inverse of the formula with the other sign of friction.
         let (cos, mu) = (20.0_f64.to_radians().cos(), 0.1);
         let expected = (1.0 - mu / cos) / (1.0 + mu / cos);
-        assert!((efficiency(-10.0) - expected).abs() < 1e-8, "{} {expected}", efficiency(-10.0));
+        assert!(
+            (efficiency(-10.0) - expected).abs() < 1e-8,
+            "{} {expected}",
+            efficiency(-10.0)
+        );
     }
 
     #[test]

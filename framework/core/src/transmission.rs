@@ -131,20 +131,14 @@ pub(crate) struct MeshModel {
 /// The loss of a mesh, by the mechanism of its kind of teeth.
 pub(crate) enum MeshLaw {
     /// Cylindrical gears.
-    Cylindrical {
-        part: Arc<MeshPart>,
-        model: Slot<GearMesh>,
-    },
+    Cylindrical { part: Arc<MeshPart>, model: Slot<GearMesh> },
     /// Bevel and hypoid gears.
     Bevel {
         part: Arc<BevelPart>,
         model: Slot<BevelMesh>,
     },
     /// A worm and its wheel.
-    Worm {
-        part: Arc<WormPart>,
-        model: Slot<WormMesh>,
-    },
+    Worm { part: Arc<WormPart>, model: Slot<WormMesh> },
     /// Crossed helical gears.
     CrossedHelical {
         part: Arc<CrossedHelicalPart>,

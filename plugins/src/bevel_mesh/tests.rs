@@ -125,7 +125,10 @@ fn power_balances_with_any_law() {
         for (torque, speed) in [(20.0, 500.0), (250.0, 4500.0), (-120.0, 1500.0), (120.0, -1500.0)] {
             solved(&t, torque, speed, |s| {
                 let [input, output] = [s.input_power().unwrap(), s.output_power().unwrap()];
-                assert!((input - output - loss(s)).abs() < 1e-11 * input, "{model} {torque} {speed}");
+                assert!(
+                    (input - output - loss(s)).abs() < 1e-11 * input,
+                    "{model} {torque} {speed}"
+                );
                 assert!(loss(s) > 0.0 && loss(s) < 0.1 * input, "{model} {}", loss(s) / input);
             });
         }
@@ -135,7 +138,9 @@ fn power_balances_with_any_law() {
 /// Xu is half of Schlenk or less on a hypoid pair; both fall with viscosity from rough contacts and with speed.
 #[test]
 fn friction_laws_follow_speed_and_load() {
-    let share = |model: &str, torque: f64, speed: f64| solved(&hypoid(model), torque, speed, |s| loss(s) / s.input_power().unwrap());
+    let share = |model: &str, torque: f64, speed: f64| {
+        solved(&hypoid(model), torque, speed, |s| loss(s) / s.input_power().unwrap())
+    };
     let schlenk = "{ type: mean_friction, mean_friction: { type: schlenk } }";
     let xu = "{ type: path_integral, tooth_friction: { type: xu } }";
     assert!(share(schlenk, 250.0, 1200.0) > share(schlenk, 250.0, 4000.0));

@@ -24,10 +24,13 @@ use serde::Deserialize;
 use super::{at_least_unless_zero, flank};
 
 pub(super) const AT_PITCH: Figure = Figure::greatest("p_HC", "MPa", "Hertzian pressure at the pitch point");
-pub(super) const PRESSURE: Figure = Figure::greatest("p_H", "MPa", "maximum Hertzian pressure along the path of contact");
-pub(super) const FILM: Figure = Figure::least("h_min", "um", "minimum film thickness along the path of contact").detail();
+pub(super) const PRESSURE: Figure =
+    Figure::greatest("p_H", "MPa", "maximum Hertzian pressure along the path of contact");
+pub(super) const FILM: Figure =
+    Figure::least("h_min", "um", "minimum film thickness along the path of contact").detail();
 pub(super) const LAMBDA: Figure = Figure::least("lambda", "-", "minimum film ratio along the path of contact");
-pub(super) const LAMBDA_RA: Figure = Figure::least("lambda_GF", "-", "minimum film over arithmetic mean roughness").detail();
+pub(super) const LAMBDA_RA: Figure =
+    Figure::least("lambda_GF", "-", "minimum film over arithmetic mean roughness").detail();
 const MICROPITTING: Figure = Figure::least("S_lambda", "-", "indicator of micropitting");
 
 /// Hertzian pressure, film ratio and an indicator of micropitting of gear flanks.

@@ -405,8 +405,7 @@ impl Din3996 {
             };
             let input = at.input();
             let of_wheel = R::select(at.worm_drives(), (input - teeth).at_least(0.0), input);
-            let watts = of_wheel
-                * (factor * size.powf(c.bearing_exponent) * pair.ratio() / pair.wheel_diameter().mm());
+            let watts = of_wheel * (factor * size.powf(c.bearing_exponent) * pair.ratio() / pair.wheel_diameter().mm());
             loss = loss.with(&BEARINGS, at.show("P_VLP", "W", watts));
         }
         if self.seals > 0 {

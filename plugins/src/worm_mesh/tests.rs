@@ -34,7 +34,9 @@ thermal: {{ mode: fixed, oil: 70 degC }}
 {rest}"
     );
     let gearbox = Gearbox::of_text(language(), &text, "worm.yaml", "").map_err(|f| f.render())?;
-    gearbox.transmission(language(), &Choice::default()).map_err(|f| f.render())
+    gearbox
+        .transmission(language(), &Choice::default())
+        .map_err(|f| f.render())
 }
 
 fn fva(model: &str) -> Transmission {
@@ -49,7 +51,12 @@ fn small(model: &str) -> Transmission {
 }
 
 /// Solves with a speed of the worm and a torque at one port, whose power is positive if it drives; the sign of torques is that of power.
-fn solved<T>(t: &Transmission, speed: f64, (port, torque): (&str, f64), read: impl FnOnce(&Solution<'_>, [f64; 2]) -> T) -> T {
+fn solved<T>(
+    t: &Transmission,
+    speed: f64,
+    (port, torque): (&str, f64),
+    read: impl FnOnce(&Solution<'_>, [f64; 2]) -> T,
+) -> T {
     let gear = t.states()[0].name.clone();
     let case = t.case(&gear, &["input"], &[port]).unwrap();
     let mut scratch = t.scratch(&case);
@@ -60,7 +67,10 @@ fn solved<T>(t: &Transmission, speed: f64, (port, torque): (&str, f64), read: im
             ..Point::default()
         };
         let solution = t.evaluate(&case, &point, &[t.oil_temperature], scratch);
-        t.ports().iter().map(|port| solution.speed(port.member)).collect::<Vec<f64>>()
+        t.ports()
+            .iter()
+            .map(|port| solution.speed(port.member))
+            .collect::<Vec<f64>>()
     };
     let speeds = at(torque, &mut scratch);
     let number = t.ports().iter().position(|own| own.name == port).unwrap();
@@ -76,7 +86,10 @@ fn solved<T>(t: &Transmission, speed: f64, (port, torque): (&str, f64), read: im
 
 #[track_caller]
 fn close(value: f64, expected: f64, tolerance: f64) {
-    assert!((value - expected).abs() <= tolerance * expected.abs(), "{value} instead of {expected}");
+    assert!(
+        (value - expected).abs() <= tolerance * expected.abs(),
+        "{value} instead of {expected}"
+    );
 }
 
 #[test]
@@ -103,7 +116,11 @@ fn both_directions_of_power_have_their_efficiency() {
                 solved(&t, speed * RPM, (given, torque), |solution, _| {
                     close(solution.efficiency().unwrap(), efficiency, 1e-7);
                     assert!(solution.residual().unwrap().abs() < 1e-10 * solution.largest_power());
-                    let expected = if drives == "input" { Status::Drive } else { Status::Coast };
+                    let expected = if drives == "input" {
+                        Status::Drive
+                    } else {
+                        Status::Coast
+                    };
                     assert_eq!(solution.status(), expected);
                 });
             }
@@ -117,15 +134,20 @@ fn forces_of_a_textbook() {
     const POUND: f64 = 4.448_221_615;
     let mesh = "module: 4.23333333 mm, worm_diameter: 50.8 mm, pressure_angle: 14.5 deg, model: { type: friction, value: 0.03 }";
     let t = drive([2, 30], mesh, 88.9, "").unwrap();
-    solved(&t, 1200.0 * RPM, ("input", 745.699_872 / (1200.0 * RPM)), |solution, _| {
-        let force = solution.tooth_force(0).unwrap().force.map(|f| f / POUND);
-        // Along the worm, across it, and towards it.
-        close(force[0].abs(), 264.35, 1e-4);
-        close(force[1].abs(), 52.521, 1e-4);
-        close(force[2].abs(), 69.67, 1e-4);
-        // The wheel is above the worm, which is pushed away from it.
-        assert!(force[2] < 0.0);
-    });
+    solved(
+        &t,
+        1200.0 * RPM,
+        ("input", 745.699_872 / (1200.0 * RPM)),
+        |solution, _| {
+            let force = solution.tooth_force(0).unwrap().force.map(|f| f / POUND);
+            // Along the worm, across it, and towards it.
+            close(force[0].abs(), 264.35, 1e-4);
+            close(force[1].abs(), 52.521, 1e-4);
+            close(force[2].abs(), 69.67, 1e-4);
+            // The wheel is above the worm, which is pushed away from it.
+            assert!(force[2] < 0.0);
+        },
+    );
 }
 
 /// Lifting and lowering a load with a drive that locks itself: T_2 d_1/d_2 tan(rho + gamma) and T_2 d_1/d_2 tan(rho - gamma) at the worm,
@@ -173,7 +195,10 @@ fn losses_count_once() {
     assert!(drive([2, 41], mesh, 100.0, "").is_ok());
     let seals = "seals: { s: { shaft: w, diameter: 30 mm, kind: radial_lip, model: { type: linke } } }";
     let found = drive([2, 41], mesh, 100.0, seals).err().unwrap();
-    assert!(found.contains("`idle_loss` adds a loss that the gearbox also describes"), "{found}");
+    assert!(
+        found.contains("`idle_loss` adds a loss that the gearbox also describes"),
+        "{found}"
+    );
 }
 
 #[test]

@@ -67,9 +67,16 @@ impl Solution<'_> {
             PartKind::Mesh(i) => {
                 let bevel = self.bevel_mesh_at(i).map(|at| readings::<BevelMesh>(&at));
                 let worm = || self.worm_mesh_at(i).map(|at| readings::<WormMesh>(&at));
-                let helical = || self.crossed_helical_mesh_at(i).map(|at| readings::<CrossedHelicalMesh>(&at));
+                let helical = || {
+                    self.crossed_helical_mesh_at(i)
+                        .map(|at| readings::<CrossedHelicalMesh>(&at))
+                };
                 let cylindrical = || self.mesh_at(i).map(|at| readings::<GearMesh>(&at));
-                bevel.or_else(worm).or_else(helical).or_else(cylindrical).unwrap_or_default()
+                bevel
+                    .or_else(worm)
+                    .or_else(helical)
+                    .or_else(cylindrical)
+                    .unwrap_or_default()
             }
             PartKind::Drag(i) => readings::<GearDrag>(&t.drag_at(i, &state, &Notebook::CLOSED)),
             PartKind::Transfer(i) => self.transfer_readings(i),

@@ -188,7 +188,9 @@ impl Solution<'_> {
             let watts = loss.map_or(0.0, |loss| loss.total_watts(at.speed));
             !at.worm_drives() && at.input() > 0.0 && watts >= at.input()
         };
-        (0..t.meshes.len()).filter(locked).map(|mesh| t.meshes[mesh].seat.path.as_str())
+        (0..t.meshes.len())
+            .filter(locked)
+            .map(|mesh| t.meshes[mesh].seat.path.as_str())
     }
 
     /// Why a loss is undefined: its part and the reason.

@@ -180,7 +180,11 @@ mod tests {
         close(pair.lead_angle.to_degrees(), 12.528807, 1e-6);
         close(pair.centre_distance, 0.1, 1e-15);
         close(pair.sliding() * 1e3, 18.43908891, 1e-8);
-        close(MeanPoint::new(&pair.cylinders()).sliding().norm() * 1e3, 18.43908891, 1e-8);
+        close(
+            MeanPoint::new(&pair.cylinders()).sliding().norm() * 1e3,
+            18.43908891,
+            1e-8,
+        );
     }
 
     #[test]
@@ -237,12 +241,17 @@ mod tests {
         let cylinders = pair.cylinders();
         close(cylinders.offset, pair.centre_distance, 1e-15);
         close(cylinders.shaft_angle, FRAC_PI_2, 1e-15);
-        let turns = cylinders.radius[0] * cylinders.spiral_angle[0].cos() / cylinders.radius[1] / cylinders.spiral_angle[1].cos();
+        let turns = cylinders.radius[0] * cylinders.spiral_angle[0].cos()
+            / cylinders.radius[1]
+            / cylinders.spiral_angle[1].cos();
         close(turns, 2.0 / 41.0, 1e-15);
     }
 
     #[test]
     fn a_load_is_held_by_the_efficiency_at_rest() {
-        assert_eq!([0.44, 0.5, 0.56].map(Holding::of), [Holding::SelfLocking, Holding::Doubtful, Holding::None]);
+        assert_eq!(
+            [0.44, 0.5, 0.56].map(Holding::of),
+            [Holding::SelfLocking, Holding::Doubtful, Holding::None]
+        );
     }
 }

@@ -216,7 +216,11 @@ impl<'a, R: Real> CrossedHelicalMeshAt<'a, R> {
     #[inline(always)]
     pub fn arm(&self, sliding: R, friction_arm: R) -> R {
         let arm = self.part.flanks.pair.base_radius[0];
-        R::select(self.first_drives.is_above(R::HALF), friction_arm, sliding - friction_arm) + arm
+        R::select(
+            self.first_drives.is_above(R::HALF),
+            friction_arm,
+            sliding - friction_arm,
+        ) + arm
     }
 }
 

@@ -244,11 +244,7 @@ impl TryFrom<WormEntry> for WormPart {
             pair: WormPair::new(WormSpec {
                 z: entry.z,
                 module: entry.module,
-                worm_diameter: WormEntry::reference_diameter(
-                    entry.module,
-                    entry.diameter_factor,
-                    entry.worm_diameter,
-                )?,
+                worm_diameter: WormEntry::reference_diameter(entry.module, entry.diameter_factor, entry.worm_diameter)?,
                 pressure_angle: entry.pressure_angle,
                 profile: entry.profile,
                 profile_shift: entry.profile_shift,

@@ -288,7 +288,11 @@ impl Frame {
         let transfers = transfers::seats(&entry, &members, found, warnings);
         let nodes = NodeNames::new(&entry, found);
         classify(found, codes::NETWORK);
-        let described = members.names.iter().map(|shaft| described(&resolved.value, shaft)).collect();
+        let described = members
+            .names
+            .iter()
+            .map(|shaft| described(&resolved.value, shaft))
+            .collect();
         Ok(Self {
             entry,
             members,

@@ -10,8 +10,8 @@ use serde::Serialize;
 
 use super::axis::Axis;
 use crate::description::BevelPair;
-use crate::geometry::{Pair, WormPair};
 use crate::geometry::crossed::{Blank, Flank, MeanPoint, PitchCones, ToothPath, VirtualPair};
+use crate::geometry::{Pair, WormPair};
 
 /// Kind of a pair on axes that cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]

@@ -11,9 +11,9 @@ use crate::codes;
 use crate::description::gears::{Faces, Hand};
 use crate::description::{BevelAxes, BevelFault, BevelMeshEntry, CrossedHelicalMeshEntry, GearKind, WormMeshEntry};
 use crate::document::Diagnostic;
-use crate::mechanism::worm_mesh::WormEntry;
-use crate::geometry::{WormPair, WormSpec};
 use crate::geometry::crossed::{Blank, MeanPoint, PitchCones};
+use crate::geometry::{WormPair, WormSpec};
+use crate::mechanism::worm_mesh::WormEntry;
 
 /// Largest difference between a stated length and the one that follows. \[m\]
 const LENGTH: f64 = 1e-5;

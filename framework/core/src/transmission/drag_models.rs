@@ -181,13 +181,10 @@ impl Drags<'_, '_, '_> {
             };
             if place.part.gear.pitch_angle != 0.0 && !model.off && !model.describes_bevel() {
                 let message = format!("`{name}` takes the dimensions of a cylindrical gear, and this is a bevel gear");
-                self.found.push(
-                    Diagnostic::error(path, message)
-                        .code(codes::BEVEL_DRAG)
-                        .help(format!(
-                            "choose a law that describes bevel gears, or write `drag: {{ {slot}: none }}` at the gear"
-                        )),
-                );
+                self.found
+                    .push(Diagnostic::error(path, message).code(codes::BEVEL_DRAG).help(format!(
+                        "choose a law that describes bevel gears, or write `drag: {{ {slot}: none }}` at the gear"
+                    )));
                 continue;
             }
             let covers = model.covers().unwrap_or_else(|| named(slot));

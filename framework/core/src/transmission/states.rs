@@ -58,6 +58,7 @@ impl GearState {
             second: Some(second),
             sz2,
             carrier: seat.carrier,
+            steep: false,
         };
         let speeds = Row::mesh(row.first, z1, row.second, sz2, row.carrier);
         self.train.rows.push(speeds);

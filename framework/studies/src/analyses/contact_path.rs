@@ -285,9 +285,18 @@ impl ContactPathEntry {
 
     /// The error that there is no such mesh.
     fn not_found(&self, cx: &Planner<'_>, t: &Transmission) -> Stopped {
-        let of_section = |path| ["meshes.", "bevel_meshes."].into_iter().find_map(|section| str::strip_prefix(path, section));
+        let of_section = |path| {
+            ["meshes.", "bevel_meshes."]
+                .into_iter()
+                .find_map(|section| str::strip_prefix(path, section))
+        };
         let names: Vec<&str> = t.mesh_paths().filter_map(of_section).collect();
-        cx.found(vec![dangling(&format!("{}.mesh", cx.path()), "mesh", &self.mesh, &names)])
+        cx.found(vec![dangling(
+            &format!("{}.mesh", cx.path()),
+            "mesh",
+            &self.mesh,
+            &names,
+        )])
     }
 
     /// The points on the path of a mesh at one operating point, and the reason if there is no friction.

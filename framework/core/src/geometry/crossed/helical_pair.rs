@@ -138,7 +138,8 @@ mod tests {
         let cylinders = PitchCones::cylinders([15, 30], 3e-3, [45.0 * degree, -45.0 * degree]);
         let tips = cylinders.radius.map(|r| r + 3e-3);
         let pair = Pair::crossed_helical(&cylinders, 20.0 * degree, tips, 226e9).unwrap();
-        let close = |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-8, "{value} not {expected}");
+        let close =
+            |value: f64, expected: f64| assert!((value / expected - 1.0).abs() < 1e-8, "{value} not {expected}");
         // Curvature of both flanks, the relative radii, and sliding at the pitch point.
         close(pair.points[2], 19.48653685e-3);
         close(pair.tangent_length - pair.points[2], 38.97307370e-3);
