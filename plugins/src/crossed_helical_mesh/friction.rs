@@ -8,7 +8,7 @@ use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::crossed_helical_mesh::{
     CrossedHelicalMesh, CrossedHelicalMeshAt, CrossedHelicalMeshLaw,
 };
-use gearloss_framework::real::{Mask as _, Real as _};
+use gearloss_framework::real::Mask as _;
 use gearloss_framework::register;
 use gearloss_framework::registry::{Check, Evidence, USER_DEFINED, formula};
 use schemars::JsonSchema;
