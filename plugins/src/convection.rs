@@ -8,7 +8,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::heat_dissipation::air::Air;
+use crate::air::Air;
 
 /// Stefan-Boltzmann constant. \[W/(m2 K4)\]
 const SIGMA: f64 = 5.670374e-8;

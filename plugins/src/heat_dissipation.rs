@@ -1,6 +1,5 @@
 //! Heat dissipation of the gearbox: from the housing to the air, through the flange, through a cooler.
 
-pub(crate) mod air;
 pub mod constant;
 pub mod fins;
 pub mod iso14179_1;

@@ -2,6 +2,7 @@
 //!
 //! The crate uses the framework exactly as an in-house crate does. A program links it with `use gearloss_plugins as _;`.
 
+mod air;
 pub mod auxiliary;
 pub mod bearing;
 pub mod bevel_mesh;

@@ -18,6 +18,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::WINDAGE;
+use crate::air::Air;
 
 terms! { TERM = no_load("windage"); }
 const PI: f64 = std::f64::consts::PI;
@@ -84,22 +85,6 @@ fn default_one() -> f64 {
     1.0
 }
 
-/// Density of the medium and viscosity of the air, kg/m3 and Pa s.
-#[derive(Clone, Copy)]
-struct Medium {
-    rho: f64,
-    mu: f64,
-}
-
-/// Dry air at one atmosphere and a temperature in degC (Sutherland).
-fn air(temperature: f64) -> Medium {
-    let kelvin = temperature + 273.15;
-    Medium {
-        rho: 101_325.0 / (287.05 * kelvin),
-        mu: 1.458e-6 * kelvin.powf(1.5) / (kelvin + 110.4),
-    }
-}
-
 /// C_t of the dimensional law.
 fn dimensional(c: &Constants, re: f64, b: f64, z: f64, flanges: [f64; 2]) -> f64 {
     c.factor
@@ -142,7 +127,7 @@ impl GearDragModel for Diab {
             return Ok(Loss::POWERS);
         }
         let r = 0.5 * gear.reference_diameter;
-        let air = air(at.temperature);
+        let air = Air::at_temperature(at.temperature + 273.15);
         let rho = air.rho + self.oil_fraction * at.rho;
         let re = at.show("Re", "-", rho * omega * r * r / air.mu);
         at.show("R", "mm", r.mm());

@@ -17,8 +17,8 @@ use gearloss_framework::{coefficients, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::air::Air;
 use super::{ZERO_CELSIUS, needed, part};
+use crate::air::Air;
 
 observed! {
     WALL = ("T_wall", "degC", "temperature of the wall");

@@ -6,6 +6,10 @@
 /// Air at a temperature.
 #[derive(Debug, Clone, Copy)]
 pub struct Air {
+    /// Density. \[kg/m3\]
+    pub rho: f64,
+    /// Dynamic viscosity. \[Pa s\]
+    pub mu: f64,
     /// Kinematic viscosity. \[m2/s\]
     pub nu: f64,
     /// Thermal conductivity. \[W/(m K)\]
@@ -21,6 +25,8 @@ impl Air {
         let rho = 101_325.0 / (287.05 * kelvin);
         let conductivity = 0.02624 * (kelvin / 300.0).powf(0.8646);
         Self {
+            rho,
+            mu,
             nu: mu / rho,
             conductivity,
             prandtl: mu * 1006.0 / conductivity,
@@ -36,6 +42,7 @@ mod tests {
     fn e4_air_at_50_degc() {
         let air = Air::at_temperature(323.15);
         assert!((air.nu / 1.78842e-5 - 1.0).abs() < 1e-5, "{}", air.nu);
+        assert!((air.rho * air.nu / air.mu - 1.0).abs() < 1e-15);
         assert!((0.68..0.73).contains(&air.prandtl));
     }
 }
