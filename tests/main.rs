@@ -45,6 +45,7 @@ mod lsp;
 mod measured;
 mod measured_formats;
 mod mistakes;
+mod model_error;
 mod modules;
 mod mutated;
 mod network;

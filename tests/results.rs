@@ -28,7 +28,7 @@ const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 const OPEN: [&str; 6] = ["bound", "set", "terms_w", "value", "model", "limit_values"];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 9] = [
+const OPTIONAL: [&str; 14] = [
     "crossed_stages",
     "data",
     "oil_network",
@@ -38,6 +38,11 @@ const OPTIONAL: [&str; 9] = [
     "derivatives",
     "study_limits",
     "limit_values",
+    "model_error",
+    "band_w",
+    "loss_difference_band_w",
+    "difference_band_w",
+    "fitted",
 ];
 
 /// One file of results with the type of its analysis.

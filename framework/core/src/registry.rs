@@ -4,6 +4,7 @@
 //! build function, which is downcast once per resolve.
 
 mod build;
+mod cells;
 mod check;
 mod compared;
 mod evaluated;
@@ -19,8 +20,9 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 pub use build::{Build, Files, Instance};
+pub use cells::{JudgedCell, ShippedCells};
 pub use check::Check;
-pub use compared::{Compared, ComparedSet, ShippedCells, kind_of};
+pub use compared::{Compared, ComparedSet, kind_of};
 pub use evaluated::Evaluated;
 pub(crate) use memory::Memory;
 pub(crate) use placed::BuiltRating;

@@ -10,7 +10,7 @@ use super::common::language;
 /// Keys of texts that name nothing of a document: titles, notes, formulas, columns, conditions, units, names that others may use.
 const FREE: &str = "title source question note about because name series formula c_m rows units column columns ColumnEntry time \
                     temperatures where by HoldOutEntry hold_out rating property slot \
-                    sheet group missing element";
+                    sheet group missing element leave_out";
 
 fn unmarked(
     schema: &Value,

@@ -14,10 +14,10 @@ use gearloss_studies::table::Table;
 use serde::Serialize;
 
 use crate::Figure;
-use crate::limits;
 use crate::picture::{Picture, Screen};
 use crate::stated_ranges::StatedRanges;
 use crate::text::{TextTable, significant};
+use crate::{limits, model_error};
 
 /// The presentation of an outcome, in reading order.
 #[derive(Debug, Default)]
@@ -218,6 +218,7 @@ impl Page {
             None => page.tables(&outcome.tables()),
         }
         limits::add(&outcome.head().study_limits, &mut page);
+        model_error::add(&outcome.head().model_error, &mut page);
         let mut ranges = StatedRanges::default();
         ranges.add_outcome(&outcome.head().analysis, outcome);
         page.outside = ranges.lines();

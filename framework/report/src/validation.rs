@@ -3,13 +3,16 @@
 use std::fmt::Write as _;
 
 use gearloss_framework::language::Language;
+use gearloss_framework::registry::JudgedCell;
 use gearloss_studies::analyses::validation::{ValidatedModel, ValidationOutcome};
-use gearloss_studies::corpus::{Basis, CellOfSet, FEWEST_SETS, ModelOverSets, Set, Validated, over_sets};
+use gearloss_studies::corpus::{
+    Basis, CellOfSet, FEWEST_SETS, LeftOut, ModelOverSets, Set, Validated, cells_csv, errors_of_laws, over_sets,
+};
 
 use crate::html::{Frame, Report, Section};
 use crate::page::Page;
 use crate::text::TextTable;
-use crate::views::validation::{CELLS, by_regime, cells, coordinates, ratio_text};
+use crate::views::validation::{CELLS, by_regime, cells, coordinates, fitted, ratio_text};
 
 /// What the document says before its tables.
 const HEAD: &str = "\
@@ -25,7 +28,20 @@ tuned. A ratio is the calculated over the measured loss: 1 is exact, 2 is twice 
 - *in range* is the share of points at which the model is inside the range that its source states.
 - Sets are counted, not points: points of one rig have its errors in common. Below three sets only their ratios are stated. From three sets on, the 95 %
   band is that of the mean of a further set, by Student's t over the logarithms of the means of the sets.
+- *one factor* is a factor on the loss of the model that is fitted to the points at all other values of the condition that is left out, and predicts the rest: with
+  it, the shape of the law is judged and not its level.
 - A set whose constants a model was derived from is marked `seen` and not counted for it.
+";
+
+/// What the document says before the errors of the models.
+const ERROR: &str = "
+## Error of the models
+
+The factor is the measured over the calculated loss at a point of a further product, for models that at least three sets judge in one kind of component:
+median and 95 % band. It contains the difference between sets, estimated as [random effects](decisions/model-error.md) with the error that each set has of its
+own, and the scatter of the points of a set. Bands with [`model_error: corpus`](corpus.md#bands-that-contain-the-model) use these distributions. The last two
+columns predict each set by the others: how many means, and how many sets with all their points, are inside the 95 % band. Of a model in the table of sets that is
+not here, the error is unknown.
 ";
 
 /// The document `docs/validation.md`.
@@ -40,6 +56,7 @@ pub fn document(language: &Language, validated: &Validated<'_>) -> String {
     );
     out.push_str("\n## Models over the measured sets\n");
     out.push_str(&over_sets_text(&over_sets(&cells)));
+    out.push_str(&errors_text(&cells));
     for (set, results) in validated.sets.iter().filter(|(_, results)| !results.is_empty()) {
         let _ = write!(
             out,
@@ -93,9 +110,14 @@ fn over_sets_text(models: &[ModelOverSets]) -> String {
             || format!("- (fewer than {FEWEST_SETS} sets)"),
             |(mean, [low, high])| format!("{} ({} to {})", ratio_text(mean), ratio_text(low), ratio_text(high)),
         );
+        let outside = if model.outside {
+            ", outside its stated range"
+        } else {
+            ""
+        };
         vec![
             model.mechanism.clone(),
-            model.model.clone(),
+            format!("{}{outside}", model.model),
             model.sets.len().to_string(),
             first.map_or_else(String::new, |(set, ratio)| format!("{} ({set})", ratio_text(*ratio))),
             last.map_or_else(String::new, |(set, ratio)| format!("{} ({set})", ratio_text(*ratio))),
@@ -113,6 +135,60 @@ fn over_sets_text(models: &[ModelOverSets]) -> String {
             "mean and band of a further set",
         ],
         models.iter().map(row),
+    );
+    out
+}
+
+/// The errors of the models that enough sets judge, and the coverage of all their bands.
+fn errors_text(cells: &[CellOfSet]) -> String {
+    let csv = cells_csv(cells);
+    // What was just written can be read.
+    let cells = JudgedCell::read(&csv).unwrap_or_default();
+    let mut out = ERROR.to_owned();
+    let mut all = LeftOut::default();
+    let mut rows = Vec::new();
+    for ([mechanism, model, part], error) in errors_of_laws(&cells) {
+        let Some([low, middle, high]) = error.band() else {
+            continue;
+        };
+        let left = error.left_out.unwrap_or_default();
+        all.sets += left.sets;
+        all.means_inside += left.means_inside;
+        all.points_inside += left.points_inside;
+        let inside = |count: usize| match left.sets {
+            0 => "-".to_owned(),
+            sets => format!("{count} of {sets}"),
+        };
+        rows.push(vec![
+            mechanism.to_owned(),
+            model.to_owned(),
+            part.to_owned(),
+            error.sets.len().to_string(),
+            ratio_text(middle),
+            format!("{} to {}", ratio_text(low), ratio_text(high)),
+            inside(left.means_inside),
+            inside(left.points_inside),
+        ]);
+    }
+    table(
+        &mut out,
+        &[
+            "mechanism",
+            "model",
+            "kind",
+            "sets",
+            "factor",
+            "95 % band",
+            "means inside",
+            "all points inside",
+        ],
+        rows.into_iter(),
+    );
+    let _ = writeln!(
+        out,
+        "\nAll models together: {} of {} sets have their mean inside the band that the other sets give, {} all their points. The same sets judge each model, so that these are \
+         not as many independent trials.",
+        all.means_inside, all.sets, all.points_inside
     );
     out
 }
@@ -136,6 +212,13 @@ fn of_outcome(out: &mut String, set: &Set, outcome: &ValidationOutcome, all: &[C
         row
     };
     table(out, &CELLS, found.models.iter().map(row));
+    if let Some((head, rows)) = fitted(found) {
+        table(
+            out,
+            &head.iter().map(String::as_str).collect::<Vec<_>>(),
+            rows.into_iter(),
+        );
+    }
     for (over, unit) in coordinates(found) {
         let (mut head, rows) = by_regime(found, over, unit);
         head[0] = format!("ratio by {}", over.replace('_', " "));

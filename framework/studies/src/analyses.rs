@@ -19,6 +19,7 @@ pub mod inputs;
 pub mod limits;
 pub mod map;
 pub mod measurable;
+pub mod model_error;
 pub mod numbers;
 pub mod operating_points;
 pub mod optimise;

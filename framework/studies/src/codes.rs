@@ -40,4 +40,10 @@ gearloss_framework::document::codes! {
     CORPUS = "E0606", "incomplete or contradictory set of a corpus",
         cause: "The source of a set lacks a key, its table does not have the columns, units or numbers that the source states, or nothing judges models by it.",
         help: "Correct `data.csv`, `source.md` or `study.yaml` of the set.";
+    CELLS = "E0607", "invalid table of cells of a corpus",
+        cause: "A file under `model_error` cannot be read, lacks a column of the tables that `gearloss validate` writes, or has a cell that is no positive number.",
+        help: "Run `gearloss validate --corpus FOLDER` again and give its `cells.csv`.";
+    NOTHING_UNCERTAIN = "E0608", "bands without an uncertain input",
+        cause: "An analysis for bands has no inputs, and no measured set judges a model of the gearbox.",
+        help: "State `inputs`, or give the cells of own sets under `model_error`.";
 }

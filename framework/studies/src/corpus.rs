@@ -4,6 +4,7 @@
 //! the record of [`SourceEntry`] between two lines `---`, followed by own words.
 
 mod data;
+mod model_error;
 mod read;
 mod source;
 mod table;
@@ -11,6 +12,7 @@ mod validated;
 
 use std::path::PathBuf;
 
+pub use self::model_error::{ErrorOfLaw, JudgingSet, LeftOut, errors_of_laws};
 pub use self::read::is_corpus;
 pub use self::source::{Basis, Product, SourceEntry, SourceFormat, StatedColumn, Trust};
 pub use self::table::cells_csv;

@@ -2,20 +2,9 @@
 
 use serde_json::Value;
 
-use super::{Entry, Origin};
+use super::Entry;
+use super::cells::{JudgedCell, ShippedCells};
 use crate::resolve::lookup;
-
-/// Cells of a corpus that a crate ships.
-#[derive(Debug, Clone, Copy)]
-pub struct ShippedCells {
-    /// CSV text as `gearloss validate` writes it: `mechanism`, `model`, `nested`, `part`, `set`, `kind`, `seen`, `points`, `ratio`
-    /// and others.
-    pub csv: &'static str,
-    /// Where they are registered.
-    pub origin: Origin,
-}
-
-inventory::collect!(ShippedCells);
 
 /// A model at one measured set.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +18,8 @@ pub struct ComparedSet {
     /// Least and greatest calculated over measured loss, each the geometric mean over the points of the set: they differ for a model
     /// with several nested models. \[-\]
     pub ratio: [f64; 2],
+    /// Whether some of its points are inside the ranges that the sources of the models state.
+    pub in_range: bool,
 }
 
 /// A model against measured sets.
@@ -87,7 +78,12 @@ impl Compared {
             } else {
                 format!("{least} to {greatest}")
             };
-            format!("against {count} measured {sets}{parts}: calculated over measured {ratio}{apart}")
+            let outside = if self.unseen().any(|set| set.in_range) {
+                ""
+            } else {
+                ", everywhere outside a stated range"
+            };
+            format!("against {count} measured {sets}{parts}: calculated over measured {ratio}{outside}{apart}")
         })
     }
 }
@@ -101,8 +97,7 @@ fn two_digits(x: f64) -> String {
 impl Entry {
     /// What the linked cells say about the model, alone or nested in another.
     pub fn compared(&self) -> Compared {
-        let cells = inventory::iter::<ShippedCells>.into_iter();
-        Compared::of(self.mechanism, self.name, cells.map(|cells| cells.csv))
+        Compared::of(self.mechanism, self.name, ShippedCells::all())
     }
 
     /// The same in words, for a component of a kind or for any; absent for a model whose law the user states, and without loss.
@@ -134,24 +129,27 @@ impl Compared {
     fn of(mechanism: &str, name: &str, tables: impl Iterator<Item = &'static str>) -> Self {
         let own = format!("{mechanism}/{name}");
         let mut all = Self::default();
-        for line in tables.flat_map(|csv| csv.lines().skip(1)) {
-            let mut cells = line.split(',');
-            let mut next = || cells.next().unwrap_or_default();
-            let [of, model, nested, part, set, kind, seen, _points, ratio] = [(); 9].map(|()| next());
+        // A table that a crate ships was written by the program: one that cannot be read says nothing.
+        for cell in tables.flat_map(|csv| JudgedCell::read(csv).unwrap_or_default()) {
             // A drag has its slot behind a dot.
-            let is_outer = of.split('.').next() == Some(mechanism) && model.split('/').next() == Some(name);
-            let is_nested = nested.split('+').any(|nested| nested == own);
-            let Ok(ratio) = ratio.parse::<f64>() else { continue };
-            if !(is_outer || is_nested) || kind != "measured" {
+            let is_outer =
+                cell.mechanism.split('.').next() == Some(mechanism) && cell.model.split('/').next() == Some(name);
+            let is_nested = cell.nested.contains(&own.as_str());
+            if !(is_outer || is_nested) || !cell.measured {
                 continue;
             }
+            let (set, ratio) = (cell.set, cell.ratio);
             match all.sets.iter_mut().find(|known| known.set == set) {
-                Some(known) => known.ratio = [known.ratio[0].min(ratio), known.ratio[1].max(ratio)],
+                Some(known) => {
+                    known.ratio = [known.ratio[0].min(ratio), known.ratio[1].max(ratio)];
+                    known.in_range |= cell.in_range > 0.0;
+                }
                 None => all.sets.push(ComparedSet {
                     set,
-                    part,
-                    seen: seen == "yes",
+                    part: cell.part,
+                    seen: cell.seen,
                     ratio: [ratio, ratio],
+                    in_range: cell.in_range > 0.0,
                 }),
             }
         }
@@ -165,12 +163,12 @@ mod tests {
     use super::*;
 
     const CELLS: &str = "\
-mechanism,model,nested,part,set,kind,seen,points,ratio,least
-bearing,law,,tapered_roller,a,measured,no,3,0.734,0.5
-bearing,law,,tapered_roller,b,measured,no,3,1.66,0.5
-bearing,law,,tapered_roller,c,measured,yes,3,1.01,0.5
-bearing,law,,tapered_roller,tool,calculated,no,3,9,0.5
-gear_mesh,outer/inner,friction/inner,,d,measured,no,3,2.04,0.5
+mechanism,model,nested,part,set,kind,seen,points,ratio,least,greatest,in_range,error,scatter
+bearing,law,,tapered_roller,a,measured,no,3,0.734,0.5,1,1,,
+bearing,law,,tapered_roller,b,measured,no,3,1.66,0.5,2,0.5,,
+bearing,law,,tapered_roller,c,measured,yes,3,1.01,0.5,2,1,,
+bearing,law,,tapered_roller,tool,calculated,no,3,9,0.5,10,1,,
+gear_mesh,outer/inner,friction/inner,,d,measured,no,3,2.04,0.5,3,0,,
 ";
 
     fn compared(mechanism: &str, name: &str) -> Compared {
@@ -196,7 +194,7 @@ gear_mesh,outer/inner,friction/inner,,d,measured,no,3,2.04,0.5
 
     #[test]
     fn a_nested_law_has_the_sets_of_its_outer_one() {
-        let said = Some("against 1 measured set: calculated over measured 2");
+        let said = Some("against 1 measured set: calculated over measured 2, everywhere outside a stated range");
         assert_eq!(words("friction", "inner").as_deref(), said);
         assert_eq!(words("gear_mesh", "outer").as_deref(), said);
         assert_eq!(words("gear_mesh", "inner"), None);

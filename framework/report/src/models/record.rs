@@ -139,6 +139,8 @@ struct MeasuredSetRecord {
     ratio_least: f64,
     /// The greatest over nested models. [-]
     ratio_greatest: f64,
+    /// Whether some of its points are inside the ranges that the sources of the models state.
+    in_range: bool,
 }
 
 /// A rating.
@@ -319,6 +321,7 @@ impl From<ComparedSet> for MeasuredSetRecord {
             part,
             seen,
             ratio: [ratio_least, ratio_greatest],
+            in_range,
         } = of;
         Self {
             set,
@@ -326,6 +329,7 @@ impl From<ComparedSet> for MeasuredSetRecord {
             seen,
             ratio_least,
             ratio_greatest,
+            in_range,
         }
     }
 }

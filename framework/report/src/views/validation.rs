@@ -2,7 +2,9 @@
 
 mod summary;
 
-use gearloss_studies::analyses::validation::{Cell, CellOfRegime, ValidatedModel, Validation, ValidationOutcome};
+use gearloss_studies::analyses::validation::{
+    Cell, CellOfRegime, FittedFactor, ValidatedModel, Validation, ValidationOutcome,
+};
 
 use crate::Figure;
 use crate::page::Page;
@@ -34,6 +36,13 @@ fn show(outcome: &ValidationOutcome, page: &mut Page) {
         page.line(format!(
             "{far} {models} wrong by more than a factor of {FARTHEST} and left out of the common pictures"
         ));
+    }
+    if let Some((head, rows)) = fitted(found) {
+        let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
+        for row in rows {
+            table.row(row);
+        }
+        page.table(table);
     }
     for line in &found.left_out {
         page.line(format!("not judged: {line}"));
@@ -91,6 +100,7 @@ pub fn cells(model: &ValidatedModel) -> Vec<String> {
         max_percent,
         in_band,
         in_range,
+        ..
     } = model.all;
     vec![
         model.name.clone(),
@@ -104,6 +114,40 @@ pub fn cells(model: &ValidatedModel) -> Vec<String> {
         number(in_band, 2),
         number(Some(in_range), 2),
     ]
+}
+
+/// The models with one fitted factor, the best prediction first: names of the columns, and a row for each model. Absent if none is fitted.
+pub fn fitted(found: &Validation) -> Option<(Vec<String>, Vec<Vec<String>>)> {
+    let mut all: Vec<(&str, &FittedFactor)> = found
+        .models
+        .iter()
+        .filter_map(|model| Some((model.name.as_str(), model.fitted.as_ref()?)))
+        .collect();
+    all.sort_by(|a, b| a.1.predicted.rms_percent.total_cmp(&b.1.predicted.rms_percent));
+    let over = &all.first()?.1.left_out;
+    let head = [
+        format!("one factor, each {} left out", over.replace('_', " ")),
+        "factor".to_owned(),
+        "least".to_owned(),
+        "greatest".to_owned(),
+        "rms %".to_owned(),
+    ];
+    let row = |(name, fitted): &(&str, &FittedFactor)| {
+        let Cell {
+            least,
+            greatest,
+            rms_percent,
+            ..
+        } = fitted.predicted;
+        vec![
+            (*name).to_owned(),
+            ratio_text(fitted.factor),
+            ratio_text(least),
+            ratio_text(greatest),
+            percent_text(rms_percent),
+        ]
+    };
+    Some((head.to_vec(), all.iter().map(row).collect()))
 }
 
 /// The coordinates of regimes with their units.

@@ -1,6 +1,7 @@
 //! Differences between model sets and products over a grid, or from a measurement.
 
 mod cases;
+mod model_error;
 mod on_grid;
 mod over_cycles;
 mod with_data;
@@ -15,7 +16,9 @@ pub use over_cycles::{CycleComparison, DifferenceOfPhase, DifferenceOfShare};
 pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranking, ranking};
 
 use super::duties::DrivePlan;
+use super::inputs::Input;
 use super::measurable::countable;
+use super::model_error::ModelErrorEntry;
 use super::rows::RowsPlan;
 use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
 use crate::points::Note;
@@ -69,6 +72,12 @@ pub struct CompareEntry {
     /// Unit of the difference: the other set minus the base, or model minus measurement.
     #[serde(default)]
     pub difference: Difference,
+    /// Error of the models for a band of the difference of the loss: a factor on the loss of each model that measured sets judge, the same in
+    /// all sets that use the model. Not with `data`, where the measurement judges.
+    pub model_error: Option<ModelErrorEntry>,
+    /// Number of samples for `model_error`; powers of two fill the distributions most evenly. Default: 64. [-]
+    #[schemars(range(min = 8, max = 65536))]
+    pub samples: Option<u32>,
     /// Formats to write; default: CSV and JSON. Figures show the differences and, with data, parity.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
@@ -113,9 +122,9 @@ pub enum Comparisons {
 /// What is compared.
 pub enum ComparePlan<'a> {
     /// Sets with a base over a grid.
-    OnGrid(&'a str, GridPlan<'a>),
+    OnGrid(&'a str, GridPlan<'a>, Vec<Vec<Input>>),
     /// Sets with a base over cycles.
-    OverCycles(Box<DrivePlan<'a>>),
+    OverCycles(Box<DrivePlan<'a>>, Vec<Vec<Input>>),
     /// Sets with measured points.
     WithData(&'a Data, Box<RowsPlan<'a>>),
 }
@@ -123,8 +132,8 @@ pub enum ComparePlan<'a> {
 impl Plan for ComparePlan<'_> {
     fn work(&self) -> Vec<Work> {
         match self {
-            Self::OnGrid(_, plan) => plan.work(),
-            Self::OverCycles(plan) => plan.work(),
+            Self::OnGrid(_, plan, _) => plan.work(),
+            Self::OverCycles(plan, _) => plan.work(),
             Self::WithData(_, plan) => plan.work(),
         }
     }
@@ -165,6 +174,10 @@ impl Analysis for CompareEntry {
             let message = "over cycles the mean losses are compared, in W and in percent";
             return Err(cx.wrong(&path, message, "delete `quantity`, `difference` and `accuracy`"));
         }
+        if self.model_error.is_some() && self.data.is_some() {
+            let message = "in a comparison with a measurement the measurement judges the models";
+            return Err(cx.wrong(&format!("{path}.model_error"), message, "delete it"));
+        }
         match (&self.grid, &self.drive, &self.base, &self.data) {
             (None, None, None, Some(_)) if !self.variants.is_empty() => {
                 let message = "a comparison with a measurement has no variants";
@@ -181,8 +194,16 @@ impl Analysis for CompareEntry {
             (Some(_), None, Some(_), None) if self.gear.is_some() => {
                 Err(cx.wrong(&path, "`gear` belongs to `data` or `drive`", "state it in the grid"))
             }
-            (Some(grid), None, Some(base), None) => Ok(ComparePlan::OnGrid(base, GridPlan::new(cx, self, grid, base)?)),
-            (None, Some(ride), Some(base), None) => Ok(ComparePlan::OverCycles(Box::new(over_cycles::plan(cx, self, ride, base)?))),
+            (Some(grid), None, Some(base), None) => {
+                let plan = GridPlan::new(cx, self, grid, base)?;
+                let inputs = model_error::inputs(cx, self, &plan.built())?;
+                Ok(ComparePlan::OnGrid(base, plan, inputs))
+            }
+            (None, Some(ride), Some(base), None) => {
+                let plan = over_cycles::plan(cx, self, ride, base)?;
+                let inputs = model_error::inputs(cx, self, &plan.built)?;
+                Ok(ComparePlan::OverCycles(Box::new(plan), inputs))
+            }
             _ => {
                 Err(cx.wrong(
                     &path,
@@ -195,12 +216,12 @@ impl Analysis for CompareEntry {
 
     fn reduce<'a>(&'a self, plan: ComparePlan<'a>, engine: &Engine<'a>) -> Result<CompareOutcome, Stopped> {
         let (built, data, comparisons) = match &plan {
-            ComparePlan::OnGrid(base, plan) => {
-                let comparisons = plan.compare(engine, self, base)?;
+            ComparePlan::OnGrid(base, plan, inputs) => {
+                let comparisons = plan.compare(engine, self, base, inputs)?;
                 (plan.built(), None, Comparisons::OnGrid(comparisons))
             }
-            ComparePlan::OverCycles(plan) => {
-                let comparisons = over_cycles::compare(engine, self, plan)?;
+            ComparePlan::OverCycles(plan, inputs) => {
+                let comparisons = over_cycles::compare(engine, self, plan, inputs)?;
                 (plan.built.clone(), None, Comparisons::OverCycles(comparisons))
             }
             ComparePlan::WithData(data, plan) => {

@@ -23,6 +23,7 @@ use super::inputs::Input;
 use super::limits::Limit;
 use super::limits::at_points;
 use super::limits::over_cycles::{limits_of, reached};
+use super::model_error::{ModelErrorEntry, energies_of_parts};
 use super::numbers::tidy;
 use super::shares::{Shares, together};
 use super::units::libraries;
@@ -58,6 +59,8 @@ pub struct CycleAnalysisEntry {
     /// Uncertain inputs: every cycle is simulated with values drawn from their distributions.
     #[serde(default)]
     pub inputs: Vec<ToleranceEntry>,
+    /// Error of the models for the bands: a factor on the loss of each model that measured sets judge.
+    pub model_error: Option<ModelErrorEntry>,
     /// Number of samples of uncertain inputs; powers of two fill the ranges most evenly. [-]
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
@@ -175,10 +178,12 @@ impl Analysis for CycleAnalysisEntry {
                 let help = "describe `bearings`, or delete the export";
                 return Err(cx.wrong(&format!("{path}.export"), message, help));
             }
-            inputs.push(Input::all(cx, &path, &self.inputs, b)?);
+            let mut of_set = Input::all(cx, &path, &self.inputs, b)?;
+            ModelErrorEntry::add(self.model_error.as_ref(), cx, b, &mut of_set)?;
+            inputs.push(of_set);
         }
         Ok(CyclePlan {
-            samples: if self.inputs.is_empty() {
+            samples: if inputs.iter().all(Vec::is_empty) {
                 0
             } else {
                 self.samples as usize
@@ -196,7 +201,9 @@ impl Analysis for CycleAnalysisEntry {
         let all_bands = if plan.samples > 0 {
             let inputs = built.iter().zip(&plan.inputs);
             engine.parts(inputs, |(b, inputs)| {
-                bands::bands(engine, self, (b, inputs), (duties, &names))
+                // Without any input there is no band, not one of no width.
+                let of_set = || bands::bands(engine, self, (b, inputs), (duties, &names));
+                (!inputs.is_empty()).then(of_set).transpose()
             })?
         } else {
             Vec::new()
@@ -205,6 +212,7 @@ impl Analysis for CycleAnalysisEntry {
         let mut cycles = Vec::new();
         for ((b, limits), driven) in built.iter().zip(&plan.limits).zip(&driven) {
             note_limits(engine, b, limits, duties, driven)?;
+            engine.weigh_model_error(&b.name, &energies_of_parts(driven));
             cycles.extend(self.results(engine, b, duties, driven, &names)?);
         }
         range_differences(&mut cycles, duties.list.len());
@@ -221,8 +229,10 @@ impl Analysis for CycleAnalysisEntry {
         }
         let mut all_left = Vec::new();
         for (bands, cycles_of_set) in all_bands.into_iter().zip(cycles.chunks_mut(duties.list.len())) {
-            bands.add_to(cycles_of_set);
-            all_left.extend(bands.left());
+            if let Some(bands) = bands {
+                bands.add_to(cycles_of_set);
+                all_left.extend(bands.left());
+            }
         }
         Ok(CycleOutcome {
             head: engine.head(built),

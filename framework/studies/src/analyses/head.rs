@@ -14,6 +14,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::limits::reached::LimitReached;
+use super::model_error::ModelErrorOfSet;
 use super::{Built, Planner};
 use crate::study::Study;
 
@@ -43,6 +44,9 @@ pub struct Head {
     /// Limits of the study over all points or cycles of the analysis; absent if the study has none that apply.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub study_limits: Vec<LimitReached>,
+    /// What is known of the error of the models, by model set; absent unless the analysis asks for it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub model_error: Vec<ModelErrorOfSet>,
     /// Notes of data entries on their files.
     #[serde(skip)]
     pub about_data: Vec<String>,
@@ -137,6 +141,7 @@ impl Head {
                 })
                 .collect(),
             study_limits: Vec::new(),
+            model_error: Vec::new(),
             about_data: about.to_vec(),
         }
     }

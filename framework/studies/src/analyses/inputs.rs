@@ -2,8 +2,11 @@
 
 use crate::codes;
 use crate::study::{Shape, ToleranceEntry};
+use crate::varied::{Tie, Varied};
+use gearloss_numerics::inference::Further;
 use gearloss_numerics::sampling::Distribution;
 
+use super::model_error::ModelError;
 use super::ranges::{Range, once};
 use super::{Built, Planner, Stopped};
 
@@ -11,7 +14,15 @@ use super::{Built, Planner, Stopped};
 pub struct Input {
     /// Its range.
     pub range: Range,
-    distribution: Distribution,
+    distribution: Drawn,
+}
+
+/// How an input is distributed.
+enum Drawn {
+    /// Over its range.
+    Range(Distribution),
+    /// As the logarithm of a factor, by the error of a model.
+    ModelError(Further),
 }
 
 impl Input {
@@ -46,14 +57,67 @@ impl Input {
             cx.wrong_as(codes::VARIED, path, message, "give a range with a positive width")
         };
         Ok(Self {
-            distribution: distribution.map_err(wrong)?,
+            distribution: Drawn::Range(distribution.map_err(wrong)?),
             range,
+        })
+    }
+
+    /// The factor on the losses of components with the same law, by the distribution of its logarithm. `path` is its place in the study.
+    pub(super) fn of_model_error(
+        cx: &Planner<'_>,
+        path: &str,
+        (law, paths): (&ModelError, Vec<String>),
+        logarithm: Further,
+        b: &Built<'_>,
+    ) -> Result<Self, Stopped> {
+        let varied = paths
+            .iter()
+            .map(|path| Varied::new(cx.language, &b.resolved, path, Tie::Factor));
+        let varied = varied.collect::<Result<Vec<Varied>, _>>().map_err(|mut error| {
+            path.clone_into(&mut error.path);
+            cx.found(vec![error])
+        })?;
+        let mut varied = varied.into_iter();
+        let first = varied
+            .next()
+            .ok_or_else(|| cx.wrong(path, "a law without components", "report this"))?;
+        let mut all = varied.fold(first, |mut all, one| {
+            all.paths.extend(one.paths);
+            all.base.extend(one.base);
+            all.published.extend(one.published);
+            all
+        });
+        let kind = law.kind.as_ref().map_or_else(String::new, |kind| format!(" of {kind}"));
+        all.pattern = format!("error of {} {}{kind}", law.mechanism, law.model);
+        // The factors of all of them are one, so that their range is that of the schema.
+        let ends = paths
+            .iter()
+            .filter_map(|path| cx.language.number_at(&b.resolved.value, path));
+        for (_, least, greatest) in ends {
+            all.range = [all.range[0].max(least), all.range[1].min(greatest)];
+        }
+        let [low, _, high] = law.factor.unwrap_or([1.0; 3]);
+        Ok(Self {
+            range: Range {
+                varied: all,
+                ends: [low, high],
+            },
+            distribution: Drawn::ModelError(logarithm),
         })
     }
 
     /// The quantile of a probability, in the unit of the path.
     pub fn value(&self, share: f64) -> Result<f64, String> {
         let [least, greatest] = self.range.varied.range;
-        Ok(self.distribution.value(share)?.clamp(least, greatest))
+        let value = match &self.distribution {
+            Drawn::Range(distribution) => distribution.value(share)?,
+            Drawn::ModelError(logarithm) => {
+                let quantile = logarithm.quantile(share);
+                quantile
+                    .ok_or_else(|| format!("{share} is no probability inside zero to one"))?
+                    .exp()
+            }
+        };
+        Ok(value.clamp(least, greatest))
     }
 }

@@ -8,6 +8,7 @@ mod search;
 mod variables;
 
 use gearloss_framework::description::Ordered;
+use gearloss_framework::resolve::matches;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -23,8 +24,9 @@ use super::duties::{DrivePlan, Duties};
 use super::inputs::Input;
 use super::limits::Limit;
 use super::limits::over_cycles::{cycle, limits_of};
+use super::model_error::ModelErrorEntry;
 use super::trial::Trial;
-use super::{Analysis, Engine, Plan, Planner, Stopped, Work};
+use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work};
 use crate::register_analysis;
 use crate::study::{DriveEntry, LimitEntry, Then, ToleranceEntry, Uses, Write};
 
@@ -62,6 +64,9 @@ pub struct OptimiseEntry {
     /// distributions.
     #[serde(default)]
     pub inputs: Vec<ToleranceEntry>,
+    /// Error of the models for the band of the gain: a factor on the loss of each model that measured sets judge, the same in the present and
+    /// the best design.
+    pub model_error: Option<ModelErrorEntry>,
     /// Number of samples of uncertain inputs; powers of two fill the ranges most evenly. [-]
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
@@ -135,7 +140,10 @@ impl Analysis for OptimiseEntry {
         let variables = Variable::all(cx, &path, &self.variables, b)?;
         let objectives = self.objectives(cx, &drive.duties)?;
         let limits = limits_of(cx, &path, &self.limits, &drive.duties, b)?;
-        let inputs = Input::all(cx, &path, &self.inputs, b)?;
+        let mut inputs = Input::all(cx, &path, &self.inputs, b)?;
+        let own = inputs.len();
+        ModelErrorEntry::add(self.model_error.as_ref(), cx, b, &mut inputs)?;
+        same_laws(cx, b, &variables, &inputs[own..])?;
         drives::check(cx, &Trial::new(cx, b), &variables)?;
         Ok(OptimisePlan {
             objectives,
@@ -180,6 +188,24 @@ impl Analysis for OptimiseEntry {
     fn formats(&self) -> &[Write] {
         &self.write
     }
+}
+
+/// Rejects choices in components whose model has a known error: the best design may have another law there, or another kind of component.
+fn same_laws(cx: &Planner<'_>, b: &Built<'_>, variables: &[Variable], errors: &[Input]) -> Result<(), Stopped> {
+    let factors = || errors.iter().flat_map(|input| &input.range.varied.paths);
+    for variable in variables.iter().filter(|variable| variable.is_choice()) {
+        let chosen = matches(&b.resolved.value, &variable.path);
+        let of_component = |factor: &String| {
+            let component = factor.strip_suffix("loss_factor").unwrap_or(factor);
+            chosen.iter().any(|path| path.starts_with(component))
+        };
+        if let Some(factor) = factors().find(|factor| of_component(factor)) {
+            let message = format!("the choice may change the law of `{factor}`, whose error `model_error` draws");
+            let help = "delete `model_error`, or vary numbers alone";
+            return Err(cx.wrong(&format!("{}.variables.{}", cx.path(), variable.name), message, help));
+        }
+    }
+    Ok(())
 }
 
 impl OptimiseEntry {

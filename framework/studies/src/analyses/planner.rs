@@ -12,6 +12,7 @@ use serde_json::Value;
 use super::head::{Head, InputFile};
 use super::limits::Scope;
 use super::limits::at_points::Watch;
+use super::model_error::{ModelError, ModelErrorOfSet, weigh};
 use super::stopped::Stopped;
 use crate::codes;
 use crate::points::{Field, Given, Points};
@@ -48,6 +49,7 @@ const MOST_MEMORY: usize = 4_000_000_000;
 struct Record {
     inputs: Vec<InputFile>,
     about: Vec<String>,
+    model_errors: Vec<ModelErrorOfSet>,
 }
 
 /// Plans analyses of a study: reads, builds and checks what an entry asks for, and solves nothing.
@@ -81,7 +83,9 @@ impl<'a> Planner<'a> {
     /// The head of an outcome without what limits reached: provenance.
     pub(super) fn provenance(&self, built: &[&Built<'_>]) -> Head {
         let record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
-        Head::new(self, built, &record.inputs, &record.about)
+        let mut head = Head::new(self, built, &record.inputs, &record.about);
+        head.model_error = record.model_errors.clone();
+        head
     }
 
     /// What the limits of the study are read for, at points of a gearbox.
@@ -115,6 +119,20 @@ impl<'a> Planner<'a> {
     pub fn keep_about(&self, file: &str, about: &str) {
         let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
         record.about.push(format!("{file}: {about}"));
+    }
+
+    /// Records what is known of the error of the models of a set.
+    pub fn keep_model_error(&self, model_set: &str, laws: Vec<ModelError>) {
+        let model_set = model_set.to_owned();
+        let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
+        record.model_errors.push(ModelErrorOfSet { model_set, laws });
+    }
+
+    /// Records the nominal losses of a set by part, for the shares of its models.
+    pub fn weigh_model_error(&self, model_set: &str, losses: &[f64]) {
+        let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
+        let of_set = record.model_errors.iter_mut().filter(|of| of.model_set == model_set);
+        of_set.for_each(|of| weigh(&mut of.laws, losses));
     }
 
     /// The gearbox of an entry, or the first.

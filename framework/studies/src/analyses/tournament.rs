@@ -6,6 +6,7 @@ mod entry;
 mod field;
 mod marks;
 mod measurements;
+mod model_error;
 mod outcome;
 mod ranking;
 pub(super) mod slot;
@@ -21,6 +22,7 @@ pub use entry::{CandidatesEntry, FactorsEntry, LossErrorsEntry, TournamentEntry}
 
 use self::entrants::Entrants;
 use self::measurements::OwnRows;
+use self::model_error::Errors;
 use super::{Analysis, Engine, Plan, Planner, Run, Stopped, Work, gear_of};
 use crate::measured::Measured;
 use crate::register_analysis;
@@ -35,6 +37,8 @@ pub struct TournamentPlan<'a> {
     entrants: Vec<Entrants>,
     /// Measured points, and the name of their file.
     measured: Option<(Measured, String)>,
+    /// The errors of the models, if they are asked for.
+    errors: Option<Errors>,
 }
 
 impl Plan for TournamentPlan<'_> {
@@ -87,8 +91,10 @@ impl Analysis for TournamentEntry {
                 ));
             }
         };
+        let entrants = Entrants::all(cx, &self.mechanisms, base)?;
         Ok(TournamentPlan {
-            entrants: Entrants::all(cx, &self.mechanisms, base)?,
+            errors: Errors::new(cx, self.model_error.as_ref(), base, &entrants)?,
+            entrants,
             run,
             measured,
         })
@@ -99,9 +105,15 @@ impl Analysis for TournamentEntry {
             run,
             entrants,
             measured,
+            errors,
         } = plan;
         let tournament = engine.undivided(|| match &measured {
-            None => Ok(Tournament::Spread(Box::new(self.spread(engine, &run, &entrants)?))),
+            None => Ok(Tournament::Spread(Box::new(self.spread(
+                engine,
+                &run,
+                &entrants,
+                errors.as_ref(),
+            )?))),
             Some((measured, file)) => {
                 let ranking = self.ranking(engine, (measured, file), &run, &entrants)?;
                 Ok(Tournament::Ranking(Box::new(ranking)))

@@ -5,11 +5,13 @@ mod samples;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::model_error::{ModelErrorEntry, losses_of_parts};
 use super::ranges::{PublishedCoefficient, published};
 use super::trial::Left;
 use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::inputs::Input;
+use crate::codes;
 use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{NameOr, ParameterKey, ToleranceEntry, Uses, Write};
@@ -31,8 +33,11 @@ pub struct UncertaintyEntry {
     #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
     /// The uncertain inputs. A name refers to a parameter of the study, uniformly distributed.
-    #[schemars(length(min = 1), with = "Vec<NameOr<ToleranceEntry>>")]
+    #[serde(default)]
+    #[schemars(with = "Vec<NameOr<ToleranceEntry>>")]
     pub inputs: Vec<ToleranceEntry>,
+    /// Error of the models: a factor on the loss of each model that measured sets judge.
+    pub model_error: Option<ModelErrorEntry>,
     /// Number of samples; powers of two fill the ranges most evenly. [-]
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 16_777_216))]
@@ -198,7 +203,14 @@ impl Analysis for UncertaintyEntry {
             let points = cx.points(&b.transmission, &gear, torques, speeds);
             let kept = points.field.len().saturating_mul(samples::BYTES);
             cx.fit_in_memory(&format!("{path}.samples"), self.samples as usize, kept)?;
-            inputs.push(Input::all(cx, &path, &self.inputs, b)?);
+            let mut of_set = Input::all(cx, &path, &self.inputs, b)?;
+            ModelErrorEntry::add(self.model_error.as_ref(), cx, b, &mut of_set)?;
+            if of_set.is_empty() {
+                let message = format!("nothing is uncertain in `{}`", b.name);
+                let help = "state `inputs`, or write `model_error` with sets that judge its models";
+                return Err(cx.wrong_as(codes::NOTHING_UNCERTAIN, &path, message, help));
+            }
+            inputs.push(of_set);
             runs.push(Run::new(cx, b, points)?);
         }
         Ok(UncertaintyPlan {
@@ -216,6 +228,7 @@ impl Analysis for UncertaintyEntry {
             let nominal = engine.solve_here(run)?;
             left.extend(super::trial::left(&run.built.transmission, &nominal.seen));
             all_left.extend(left);
+            engine.weigh_model_error(&run.built.name, &losses_of_parts(&nominal.points));
             let [torques, speeds] = run.points.field.axes().unwrap_or_default();
             Ok(BandsOfSet {
                 model_set: run.built.name.clone(),

@@ -68,6 +68,9 @@ pub struct ValidationEntry {
     #[serde(default)]
     #[schemars(with = "Vec<NameOr<ToleranceEntry>>")]
     pub inputs: Vec<ToleranceEntry>,
+    /// A condition whose values are left out in turn: `speed`, `torque`, `oil_temperature`, or a column under `bind`. One factor on the loss of
+    /// each model is fitted to the points at the other values, and predicts these: what remains is the shape of the law, not its level.
+    pub leave_out: Option<String>,
     /// Number of samples of the inputs; powers of two fill the ranges most evenly. [-]
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
@@ -145,6 +148,20 @@ pub struct ValidatedModel {
     pub at: Vec<ValidatedPoint>,
     /// Number of samples without a loss. [-]
     pub failed_samples: usize,
+    /// The model with one fitted factor; absent unless a condition is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fitted: Option<FittedFactor>,
+}
+
+/// A model with one factor on its loss, fitted to a measurement.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct FittedFactor {
+    /// The condition whose values were left out in turn.
+    pub left_out: String,
+    /// The factor from all points, which makes the geometric mean of the ratios one. [-]
+    pub factor: f64,
+    /// The points, each predicted with the factor from the points at the other values.
+    pub predicted: Cell,
 }
 
 /// The points of a regime.
@@ -239,6 +256,7 @@ impl Analysis for ValidationEntry {
             &base,
         )?;
         self.check_components(cx, &base, &entrants)?;
+        self.check_left_out(cx)?;
         let inputs = Input::all(cx, &path, &self.inputs, &base)?;
         let gear = gear_of(self.gear.as_deref(), &base.transmission);
         let rows = cx.study.rows(&measured, &self.bind, Some(gear), false);
@@ -371,6 +389,61 @@ impl ValidationEntry {
         Ok(())
     }
 
+    /// Rejects a condition that a measurement does not have.
+    fn check_left_out(&self, cx: &Planner<'_>) -> Result<(), Stopped> {
+        let conditions: Vec<&str> = ["speed", "torque", "oil_temperature"]
+            .into_iter()
+            .chain(self.bind.ids())
+            .collect();
+        match &self.leave_out {
+            Some(name) if !conditions.contains(&name.as_str()) => {
+                let help = format!("write one of {}", conditions.join(", "));
+                let message = format!("`{name}` is no condition of the points");
+                Err(cx.wrong(&format!("{}.leave_out", cx.path()), message, &help))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The model with one factor, each value of the condition predicted by the others; absent unless that is asked for.
+    fn fitted(
+        &self,
+        engine: &Engine<'_>,
+        measured: &Measured,
+        at: &[ValidatedPoint],
+    ) -> Result<Option<FittedFactor>, Stopped> {
+        let Some(name) = &self.leave_out else { return Ok(None) };
+        let of = coordinates(measured, at).into_iter().find(|(over, ..)| over == name);
+        let Some((_, _, values)) = of else {
+            let message =
+                format!("`{name}` does not vary between the points, so that none of its values can be left out");
+            return Err(engine.wrong(
+                &format!("{}.leave_out", engine.path()),
+                message,
+                "choose a condition that varies",
+            ));
+        };
+        let mean = |places: &mut dyn Iterator<Item = usize>| {
+            let logs: Vec<f64> = places.map(|i| at[i].ratio.ln()).collect();
+            logs.iter().sum::<f64>() / logs.len() as f64
+        };
+        let mut predicted = at.to_vec();
+        for (_, places) in bands(&values) {
+            let factor = (-mean(&mut (0..at.len()).filter(|i| !places.contains(i)))).exp();
+            for point in places {
+                predicted[point].ratio *= factor;
+                predicted[point].band = None;
+            }
+        }
+        let factor = (-mean(&mut (0..at.len()))).exp();
+        let cell = Cell::of(&predicted, &[]);
+        Ok(cell.map(|predicted| FittedFactor {
+            left_out: name.clone(),
+            factor,
+            predicted,
+        }))
+    }
+
     /// Rejects components that the mechanism does not have.
     fn check_components(&self, cx: &Planner<'_>, base: &Built<'_>, entrants: &Entrants) -> Result<(), Stopped> {
         let parts = base.transmission.parts();
@@ -468,15 +541,21 @@ impl ValidationEntry {
                 none.line, none.loss_w, none.measured_w
             )));
         }
-        let Some(all) = Cell::of(&at) else {
+        // Means of the logarithms of the ratios at some points, by sample: what a set does not state moves all of them.
+        let sampled = |places: &[usize]| -> Vec<f64> {
+            let mean = |ratios: &&Vec<f64>| places.iter().map(|i| ratios[*i].ln()).sum::<f64>() / places.len() as f64;
+            solved.iter().map(mean).filter(|mean| mean.is_finite()).collect()
+        };
+        let Some(all) = Cell::of(&at, &sampled(&(0..at.len()).collect::<Vec<_>>())) else {
             return Ok(Err("no points".to_owned()));
         };
         Ok(Ok(ValidatedModel {
             name: candidate.name.clone(),
             model: candidate.model.clone(),
             all,
-            regimes: regimes(measured, &at),
+            regimes: regimes(measured, &at, &sampled),
             failed_samples: plan.samples - solved.len(),
+            fitted: self.fitted(engine, measured, &at)?,
             at,
         }))
     }
@@ -513,7 +592,7 @@ fn coordinates(measured: &Measured, at: &[ValidatedPoint]) -> Vec<Regime> {
 }
 
 /// The points by every coordinate that varies.
-fn regimes(measured: &Measured, at: &[ValidatedPoint]) -> Vec<CellOfRegime> {
+fn regimes(measured: &Measured, at: &[ValidatedPoint], sampled: &dyn Fn(&[usize]) -> Vec<f64>) -> Vec<CellOfRegime> {
     let cells = |(over, unit, values): Regime| -> Vec<CellOfRegime> {
         let cell = |([from, to], places): ([f64; 2], Vec<usize>)| {
             let points: Vec<ValidatedPoint> = places.iter().map(|i| at[*i].clone()).collect();
@@ -522,7 +601,7 @@ fn regimes(measured: &Measured, at: &[ValidatedPoint]) -> Vec<CellOfRegime> {
                 unit: unit.clone(),
                 from,
                 to,
-                cell: Cell::of(&points)?,
+                cell: Cell::of(&points, &sampled(&places))?,
             })
         };
         bands(&values).into_iter().filter_map(cell).collect()
@@ -621,6 +700,18 @@ impl Outcome for ValidationOutcome {
                 "-",
                 "Share of points inside the stated ranges",
                 |(.., cell)| cell.in_range,
+            )
+            .number(
+                "error",
+                "-",
+                "Standard deviation of the logarithm of the ratio from inputs and accuracy",
+                |(.., cell)| cell.error,
+            )
+            .number(
+                "scatter",
+                "-",
+                "Standard deviation of the logarithms of the ratios of the points",
+                |(.., cell)| cell.scatter,
             )
             .finish();
         vec![points, cells]

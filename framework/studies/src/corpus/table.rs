@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::{Basis, CellOfSet};
 
 /// Names of the columns.
-const COLUMNS: &str = "mechanism,model,nested,part,set,kind,seen,points,ratio,least,greatest,bias_percent,rms_percent,max_percent,in_band,in_range";
+const COLUMNS: &str = "mechanism,model,nested,part,set,kind,seen,points,ratio,least,greatest,bias_percent,rms_percent,max_percent,in_band,in_range,error,scatter";
 
 /// The cells as CSV with three significant digits, so that a change of a law shows and a rounding of another machine does not.
 pub fn cells_csv(cells: &[CellOfSet]) -> String {
@@ -30,7 +30,7 @@ pub fn cells_csv(cells: &[CellOfSet]) -> String {
         // Writing into a text does not fail.
         let _ = writeln!(
             text,
-            "{},{},{},{},{},{kind},{},{},{numbers},{in_band},{:.2}",
+            "{},{},{},{},{},{kind},{},{},{numbers},{in_band},{:.2},{},{}",
             of.mechanism,
             of.model,
             of.nested,
@@ -38,7 +38,9 @@ pub fn cells_csv(cells: &[CellOfSet]) -> String {
             of.set,
             if of.seen { "yes" } else { "no" },
             cell.points,
-            cell.in_range
+            cell.in_range,
+            cell.error.map_or_else(String::new, three_digits),
+            cell.scatter.map_or_else(String::new, three_digits)
         );
     }
     text

@@ -51,6 +51,8 @@ pub struct ModelOverSets {
     pub model: String,
     /// The sets with the geometric mean of the ratio in each, the least first.
     pub sets: Vec<(String, f64)>,
+    /// Whether the model is outside a stated range at every point of all sets.
+    pub outside: bool,
     /// Geometric mean over the sets, and 95 % band for the mean of a further set; absent below three sets.
     pub band: Option<(f64, [f64; 2])>,
 }
@@ -137,7 +139,9 @@ pub fn over_sets(cells: &[CellOfSet]) -> Vec<ModelOverSets> {
         for (_, ratio) in &mut sets {
             *ratio = ratio.exp();
         }
+        let outside = cells.iter().filter(own).all(|cell| cell.cell.in_range == 0.0);
         ModelOverSets {
+            outside,
             mechanism,
             model,
             sets,
@@ -197,6 +201,8 @@ mod tests {
                 max_percent: 0.0,
                 in_band: None,
                 in_range: 1.0,
+                error: None,
+                scatter: None,
             },
         }
     }

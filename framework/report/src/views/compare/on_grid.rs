@@ -8,7 +8,7 @@ use crate::figure::jumps;
 use crate::names::SetNames;
 use crate::page::Page;
 use crate::picture::{PanelQuantity, Panels, Screen};
-use crate::text::{TextTable, fixed, number, spread};
+use crate::text::{TextTable, fixed, number, signed, spread};
 use crate::{Figure, Map};
 
 pub fn show(outcome: &CompareOutcome, all: &[GridComparison], page: &mut Page) {
@@ -26,6 +26,9 @@ pub fn show(outcome: &CompareOutcome, all: &[GridComparison], page: &mut Page) {
             c.base,
             figures(c)
         ));
+        if let Some(band) = c.loss_difference_band_w {
+            page.verdict(with_error((&c.model_set, &c.base), band));
+        }
         page.line("");
         page.line("");
     }
@@ -52,6 +55,21 @@ pub fn show(outcome: &CompareOutcome, all: &[GridComparison], page: &mut Page) {
     let base = all.first().map_or("", |c| c.base.as_str());
     let figure = parity(name, words, (&format!("{base}: {words}"), words), lists);
     page.figure(format!("{name}-parity"), figure);
+}
+
+/// The band of a difference of the mean loss with the known errors of the models.
+pub fn with_error((set, base): (&str, &str), [low, middle, high]: [f64; 3]) -> String {
+    let sides = if low <= 0.0 && high >= 0.0 {
+        "; it contains zero"
+    } else {
+        ""
+    };
+    format!(
+        "{set} minus {base}, mean loss with the known errors of the models: {} to {} W (95 %), median {} W{sides}",
+        signed(low),
+        signed(high),
+        signed(middle)
+    )
 }
 
 /// A selection of differences as a table of torque and speed.

@@ -3,6 +3,7 @@
 use gearloss_studies::analyses::compare::CycleComparison;
 use gearloss_studies::distinct::distinct;
 
+use super::on_grid::with_error;
 use crate::Figure;
 use crate::page::Page;
 use crate::plot::Bar;
@@ -14,6 +15,11 @@ pub fn show(name: &str, all: &[CycleComparison], page: &mut Page) {
         page.table(shares(&compared));
         if compared.iter().any(|c| !c.phases.is_empty()) {
             page.table(phases(&compared));
+        }
+        for c in &compared {
+            if let Some(band) = c.difference_band_w {
+                page.verdict(format!("over {cycle}: {}", with_error((&c.model_set, &c.base), band)));
+            }
         }
         consumption(&compared, page);
         page.line("");

@@ -28,6 +28,20 @@ pub fn show(name: &str, spread: &Spread, page: &mut Page) {
         spread.unit_in_words,
         spread.deviation_rms
     ));
+    let bands = || {
+        spread
+            .points
+            .iter()
+            .filter_map(|p| p.band_w.map(|band| 0.5 * (band[2] - band[0]) * p.scale))
+    };
+    if bands().next().is_some() {
+        page.verdict(format!(
+            "half the width of the 95 % band over the combinations with the known errors of their models: {:.3} to {:.3} {}",
+            bands().fold(f64::INFINITY, f64::min),
+            bands().fold(0.0, f64::max),
+            spread.unit_in_words
+        ));
+    }
     page.line("");
     if spread.torques.len() < 2 || spread.speeds.len() < 2 {
         return;

@@ -2,15 +2,19 @@
 
 use std::sync::Arc;
 
+use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::cases::{cases, names};
 use super::over_cycles::DifferenceOfShare;
-use super::{CompareEntry, unit};
+use super::{CompareEntry, model_error, unit};
 use crate::analyses::axes::grid_axes;
+use crate::analyses::inputs::Input;
+use crate::analyses::model_error::losses_of_parts;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
+use crate::analyses::trial::Trial;
 use crate::analyses::{Built, Engine, Plan, Planner, Run, Runs, Stopped, Work};
 use crate::points::{GridResult, Note, PointResult, Statistics, TotalLoss, notes, notes_with_shares};
 use crate::study::{By, Difference, Grid, Quantity};
@@ -39,6 +43,10 @@ pub struct GridComparison {
     pub difference: Option<Statistics>,
     /// Statistics of the differences of the loss, of the base's loss. [%]
     pub loss_difference_percent_of_loss: Option<Statistics>,
+    /// Lower end, median and upper end of the 95 % band of the mean difference of the loss, from the known errors of the models; absent unless they
+    /// are asked for, and known for some model. [W]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loss_difference_band_w: Option<[f64; 3]>,
     /// What models of the set noted.
     pub notes: Vec<Note>,
     /// Every torque at every speed, torque by torque.
@@ -138,6 +146,7 @@ impl<'a> GridPlan<'a> {
         engine: &Engine<'_>,
         entry: &CompareEntry,
         base: &str,
+        inputs: &[Vec<Input>],
     ) -> Result<Vec<GridComparison>, Stopped> {
         let solved = engine.solve_all(&self.runs)?;
         let first = &self.runs.0[0];
@@ -151,10 +160,26 @@ impl<'a> GridPlan<'a> {
             points: &solved[0].points,
             ranges_left: seen.iter().filter(|note| note.outside > 0).count(),
         };
-        let others = self.runs.0.iter().zip(&solved).skip(1);
-        Ok(others
-            .map(|(run, other)| comparison(entry, &base, &run.built, other))
-            .collect())
+        let losses = |case: usize, trial: &Trial<'_>, t: &Transmission| {
+            let solved = trial.solve(engine, t, &self.runs.0[case].points)?;
+            Ok(vec![
+                solved
+                    .points
+                    .iter()
+                    .map(|point| point.loss.unwrap_or(f64::NAN))
+                    .collect(),
+            ])
+        };
+        let bands = model_error::bands(engine, entry, (&self.built(), inputs), &losses)?;
+        for (run, solved) in self.runs.0.iter().zip(&solved).filter(|_| !inputs.is_empty()) {
+            engine.weigh_model_error(&run.built.name, &losses_of_parts(&solved.points));
+        }
+        let others = self.runs.0.iter().zip(&solved).skip(1).enumerate();
+        let comparison = |(i, (run, other)): (usize, (&Run<'_>, &GridResult))| GridComparison {
+            loss_difference_band_w: bands.get(i).and_then(|cycles| *cycles.first()?),
+            ..comparison(entry, &base, &run.built, other)
+        };
+        Ok(others.map(comparison).collect())
     }
 
     /// The base and the sets.
@@ -222,6 +247,7 @@ fn comparison(entry: &CompareEntry, base: &Base<'_>, built: &Built<'_>, other: &
         mean: (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64),
         difference: Statistics::from_values(known),
         loss_difference_percent_of_loss: Statistics::from_values(pairs().filter_map(of_loss)),
+        loss_difference_band_w: None,
         notes: notes_with_shares(&built.transmission, &other.seen, TotalLoss::of(&other.points)),
         outside: pairs().map(|(a, b)| a.outside || b.outside).collect(),
         points,

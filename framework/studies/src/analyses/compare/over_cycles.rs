@@ -1,18 +1,22 @@
 //! Differences of mean losses over cycles: by share and by phase.
 
+use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::CompareEntry;
 use super::cases::{cases, names};
+use super::{CompareEntry, model_error};
 use crate::analyses::balance::reason;
 use crate::analyses::cycle::results::per_distance;
 use crate::analyses::duties::{DrivePlan, Duties, Read, sums_energies};
+use crate::analyses::inputs::Input;
+use crate::analyses::model_error::energies_of_parts;
 use crate::analyses::shares::{Shares, together};
+use crate::analyses::trial::Trial;
 use crate::analyses::{Built, Engine, Planner, Stopped};
 use crate::codes;
 use crate::points::{Driven, Note, notes, notes_over_time};
-use crate::study::RideEntry;
+use crate::study::{By, RideEntry};
 use crate::table::Table;
 
 /// Differences of one set or variant from the base over one cycle.
@@ -32,6 +36,10 @@ pub struct CycleComparison {
     pub mean_loss_w: f64,
     /// Difference of the mean losses. [W]
     pub difference_w: f64,
+    /// Lower end, median and upper end of the 95 % band of the difference, from the known errors of the models; absent unless they are asked for,
+    /// and known for some model. [W]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub difference_band_w: Option<[f64; 3]>,
     /// The same relative to the base; absent if it has no loss. [%]
     pub difference_percent: Option<f64>,
     /// The same as energy per distance; absent without a vehicle. [Wh/km]
@@ -100,17 +108,27 @@ pub(super) fn compare(
     engine: &Engine<'_>,
     entry: &CompareEntry,
     plan: &DrivePlan<'_>,
+    inputs: &[Vec<Input>],
 ) -> Result<Vec<CycleComparison>, Stopped> {
     let DrivePlan { built, duties } = plan;
     let driven = plan.drive(engine)?;
     whole(engine, plan, &driven)?;
+    let losses = |_: usize, _: &Trial<'_>, t: &Transmission| {
+        let driven = duties.mean_losses(engine, t, By::Component, &[]);
+        let (losses, _) = driven.map_err(|unfinished| unfinished.message)?;
+        Ok(losses.into_iter().map(|mean| vec![mean.loss]).collect())
+    };
+    let bands = model_error::bands(engine, entry, (built, inputs), &losses)?;
+    for (b, driven) in built.iter().zip(&driven).filter(|_| !inputs.is_empty()) {
+        engine.weigh_model_error(&b.name, &energies_of_parts(driven));
+    }
     let share_names = together(built.iter().map(|b| &b.transmission), entry.by);
     let (Some((base, others)), Some((of_base, of_others))) = (built.split_first(), driven.split_first()) else {
         return Ok(Vec::new());
     };
     let mut comparisons = Vec::new();
-    for (b, driven_of_set) in others.iter().zip(of_others) {
-        for ((read, driven), of_base) in duties.list.iter().zip(driven_of_set).zip(of_base) {
+    for (case, (b, driven_of_set)) in others.iter().zip(of_others).enumerate() {
+        for (cycle, ((read, driven), of_base)) in duties.list.iter().zip(driven_of_set).zip(of_base).enumerate() {
             let shares = [base, b].map(|b| Shares::new(&b.transmission, entry.by).under(&share_names));
             let mut compared = comparison(read, [(base, of_base), (b, driven)], &shares);
             let both = [(base, of_base), (b, driven)];
@@ -120,6 +138,7 @@ pub(super) fn compare(
                     Some(now.consumption_kwh_per_100_km - before.consumption_kwh_per_100_km);
                 compared.range_difference_km = now.range_km.zip(before.range_km).map(|(now, before)| now - before);
             }
+            compared.difference_band_w = bands.get(case).and_then(|cycles| *cycles.get(cycle)?);
             comparisons.push(compared);
         }
     }
@@ -171,6 +190,7 @@ fn comparison(read: &Read, pair: [(&Built<'_>, &Driven); 2], shares: &[Shares; 2
         base_mean_loss_w: losses[0],
         mean_loss_w: losses[1],
         difference_w: difference,
+        difference_band_w: None,
         difference_percent: (losses[0] > 0.0).then(|| 100.0 * difference / losses[0]),
         difference_wh_per_km: km.map(|km| difference * duration / 3600.0 / km),
         consumption_difference_kwh_per_100_km: None,

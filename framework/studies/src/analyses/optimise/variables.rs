@@ -63,6 +63,11 @@ enum Kind {
 }
 
 impl Variable {
+    /// Whether it is one of several values.
+    pub fn is_choice(&self) -> bool {
+        matches!(self.kind, Kind::Choice { .. })
+    }
+
     /// The variables of an analysis at a path.
     pub fn all(
         cx: &Planner<'_>,

@@ -9,6 +9,7 @@ use super::super::numbers::RPM;
 use super::super::{Built, Engine, Stopped};
 use super::entrants::{Entrants, first_message};
 use super::marks::{Mark, marks};
+use super::model_error::{Errors, LossOfLaw};
 use super::slot::{Candidate, Slot};
 use crate::points::{Field, GridResult, PointResult, Points, notes, run_grid};
 
@@ -29,6 +30,7 @@ pub struct Gathering<'a> {
     pub left_out: Vec<String>,
     /// Number of quantities outside their stated ranges.
     pub unlisted: usize,
+    errors: Option<&'a Errors>,
 }
 
 /// Why a model is omitted.
@@ -44,6 +46,7 @@ struct Evaluated {
     /// \[s\]
     seconds: f64,
     marks: Vec<Mark>,
+    laws: Vec<LossOfLaw>,
 }
 
 impl<'a> Gathering<'a> {
@@ -54,6 +57,7 @@ impl<'a> Gathering<'a> {
         base: &'a Built<'a>,
         points: &'a Points,
         solved: &'a GridResult,
+        errors: Option<&'a Errors>,
     ) -> Result<Self, Stopped> {
         let mut gathering = Self {
             time: timed(engine, &base.transmission, points).ok_or(Stopped::Interrupted)?,
@@ -64,24 +68,25 @@ impl<'a> Gathering<'a> {
             slots: Vec::new(),
             left_out: Vec::new(),
             unlisted: 0,
+            errors,
         };
-        for of_slot in entrants {
-            let slot = gathering.slot(of_slot)?;
+        for (number, of_slot) in entrants.iter().enumerate() {
+            let slot = gathering.slot(number, of_slot)?;
             gathering.slots.push(slot);
         }
         Ok(gathering)
     }
 
     /// Evaluates the entrants of a mechanism.
-    fn slot(&mut self, entrants: &Entrants) -> Result<Slot, Stopped> {
+    fn slot(&mut self, number: usize, entrants: &Entrants) -> Result<Slot, Stopped> {
         let mut slot = entrants.slot.clone();
         self.left_out.extend(entrants.left_out.iter().cloned());
-        for entrant in &entrants.list {
+        for (place, entrant) in entrants.list.iter().enumerate() {
             let built = entrant
                 .built
                 .as_ref()
                 .map_err(|reason| Refused::Because(reason.clone()));
-            match built.and_then(|transmission| self.evaluated(&slot, transmission)) {
+            match built.and_then(|transmission| self.evaluated(&slot, [number, place], transmission)) {
                 Err(Refused::Interrupted) => return Err(Stopped::Interrupted),
                 Err(Refused::Because(reason)) if entrants.named => {
                     return Err(entrants.unusable_model(self.engine, &entrant.name, &reason));
@@ -99,6 +104,7 @@ impl<'a> Gathering<'a> {
                         1.0
                     },
                     marks: found.marks,
+                    laws: found.laws,
                 }),
             }
         }
@@ -136,6 +142,9 @@ impl<'a> Gathering<'a> {
             loss,
             time: 1.0,
             marks,
+            laws: self.errors.map_or_else(Vec::new, |errors| {
+                errors.of_base(&base.transmission, &self.solved.points, |part| covered.contains(&part))
+            }),
         };
         slot.candidates.insert(0, present);
     }
@@ -160,7 +169,7 @@ impl<'a> Gathering<'a> {
     }
 
     /// Evaluates the gearbox with a model at all points.
-    fn evaluated(&mut self, slot: &Slot, transmission: &Transmission) -> Result<Evaluated, Refused> {
+    fn evaluated(&mut self, slot: &Slot, place: [usize; 2], transmission: &Transmission) -> Result<Evaluated, Refused> {
         let (engine, base) = (self.engine, self.base);
         let solved = run_grid(transmission, self.points, &|_| engine.should_continue());
         let solved = solved.map_err(|list| Refused::Because(first_message(&list)))?;
@@ -184,6 +193,9 @@ impl<'a> Gathering<'a> {
             loss: loss.collect(),
             seconds: timed(engine, transmission, self.points).ok_or(Refused::Interrupted)?,
             marks: marks(transmission, &solved.seen, &replaced),
+            laws: self.errors.map_or_else(Vec::new, |errors| {
+                errors.of_entrant(place, transmission, &solved.points, slot)
+            }),
         })
     }
 }

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::super::model_error::ModelErrorEntry;
 use super::super::{Planner, Stopped};
 use crate::study::{Data, Difference, Quantity, Write};
 
@@ -49,6 +50,9 @@ pub struct TournamentEntry {
     pub quantity: Quantity,
     /// Bounds of a factor on each mechanism's loss, fitted for each combination.
     pub factors: Option<FactorsEntry>,
+    /// Error of the models for a band of the loss over all combinations: a factor on the loss of each model that measured sets judge. Only with
+    /// `grid`: with `data` the measured points judge.
+    pub model_error: Option<ModelErrorEntry>,
     /// Number of groups of neighbouring torques for cross-validation. [-]
     #[serde(default = "folds")]
     #[schemars(range(min = 2, max = 20))]
@@ -111,6 +115,14 @@ impl TournamentEntry {
     /// Rejects invalid keys.
     pub(super) fn check(&self, cx: &Planner<'_>) -> Result<(), Stopped> {
         let path = cx.path();
+        if self.model_error.is_some() && self.data.is_some() {
+            let message = "with `data` the measured points judge the models";
+            return Err(cx.wrong(
+                &format!("{path}.model_error"),
+                message,
+                "delete it, or give a `grid` instead of `data`",
+            ));
+        }
         if self.quantity == Quantity::Temperature {
             let message = "combinations are ranked by losses, not by temperature";
             return Err(cx.wrong(&format!("{path}.quantity"), message, "write `quantity: loss`"));

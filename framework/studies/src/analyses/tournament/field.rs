@@ -8,6 +8,7 @@ use super::super::{Built, Engine, Run, Stopped};
 use super::candidates::{Gathering, left};
 use super::entrants::Entrants;
 use super::entry::{MOST, TournamentEntry};
+use super::model_error::{Errors, LossOfLaw};
 use super::outcome::{CandidateOfTournament, MechanismOfTournament};
 use super::slot::{Candidate, Slot};
 use crate::points::{Field as Given, Given as GivenPoint, PointResult, Points};
@@ -28,6 +29,8 @@ pub struct Field<'a> {
     pub left_out: Vec<String>,
     /// Number of quantities outside their stated ranges.
     pub unlisted: usize,
+    /// Losses of all other components by laws with a known error, if it is asked for.
+    pub rest_laws: Vec<LossOfLaw>,
 }
 
 impl<'a> Field<'a> {
@@ -37,6 +40,7 @@ impl<'a> Field<'a> {
         entry: &TournamentEntry,
         run: &'a Run<'a>,
         entrants: &[Entrants],
+        errors: Option<&Errors>,
     ) -> Result<Self, Stopped> {
         let base: &'a Built<'a> = &run.built;
         let mut run = run.clone();
@@ -54,7 +58,7 @@ impl<'a> Field<'a> {
             field: Given::List(given(&solved.points)),
             ..run.points
         };
-        let gathering = Gathering::new(engine, entrants, base, &points, &solved)?;
+        let gathering = Gathering::new(engine, entrants, base, &points, &solved, errors)?;
         let (slots, left_out) = (gathering.slots, gathering.left_out);
         let unlisted = gathering.unlisted + left(&base.transmission, &solved);
         if let Some(p) = solved.points.iter().find(|p| p.loss.is_none()) {
@@ -74,6 +78,10 @@ impl<'a> Field<'a> {
                 .sum()
         };
         let rest: Vec<f64> = solved.points.iter().map(rest).collect();
+        let rest_laws = errors.map_or_else(Vec::new, |errors| {
+            let is_rest = |part: usize| !slots.iter().any(|slot| slot.covers(&parts[part]));
+            errors.of_base(&base.transmission, &solved.points, is_rest)
+        });
         let scale = |p: &PointResult| match entry.quantity {
             Quantity::Efficiency => 100.0 / (p.torque * p.torque_speed).abs(),
             Quantity::LossTorque => 1.0 / p.reference_speed.abs(),
@@ -85,6 +93,7 @@ impl<'a> Field<'a> {
             gear: points.gear,
             points: solved.points,
             rest,
+            rest_laws,
             slots,
             base,
             left_out,

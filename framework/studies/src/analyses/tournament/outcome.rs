@@ -275,6 +275,10 @@ pub struct SpreadPoint {
     pub greatest_loss_w: f64,
     /// Standard deviation of the losses. [W]
     pub deviation_w: f64,
+    /// Lower end, median and upper end of the 95 % band over the combinations, with the error of the models that measured sets judge; absent
+    /// unless it is asked for. [W]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band_w: Option<[f64; 3]>,
     /// An error of one watt in the unit of errors. [unit/W]
     #[serde(skip)]
     pub scale: f64,

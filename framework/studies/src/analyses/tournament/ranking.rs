@@ -55,7 +55,7 @@ impl TournamentEntry {
             }
         }
         let run = run.with_list(list);
-        let field = Field::new(engine, self, &run, entrants)?;
+        let field = Field::new(engine, self, &run, entrants, None)?;
         let rows = Measurements::new(engine, self, (measured, &of_gear.rows), &field)?;
         let found = self.ranked(engine, &field, &rows.losses)?;
         let gap = gap_of_sum(engine, &field, &found.combinations[found.winner.place])?;

@@ -9,6 +9,7 @@ use serde_json::{Map, Value};
 use super::super::{Planner, Stopped};
 use super::entry::CandidatesEntry;
 use super::marks::Mark;
+use super::model_error::LossOfLaw;
 
 /// A mechanism with varied models.
 #[derive(Clone)]
@@ -35,6 +36,8 @@ pub struct Candidate {
     pub time: f64,
     /// Quantities outside their stated ranges at the points.
     pub marks: Vec<Mark>,
+    /// Losses by laws with a known error, if it is asked for.
+    pub laws: Vec<LossOfLaw>,
 }
 
 impl Slot {
@@ -71,6 +74,11 @@ impl Slot {
     /// True for the drags of gears.
     pub fn is_drag(&self) -> bool {
         self.drag.is_some()
+    }
+
+    /// True for laws of its mechanism.
+    pub fn is_of(&self, mechanism: &str) -> bool {
+        self.mechanism == mechanism
     }
 
     /// True for the parts of this mechanism, and slot.

@@ -8,6 +8,7 @@ use super::super::{Built, Engine, Planner, Run, Stopped};
 use super::entrants::Entrants;
 use super::entry::TournamentEntry;
 use super::field::Field;
+use super::model_error::{Errors, bands};
 use super::outcome::{ShareOfSpread, Spread, SpreadPoint};
 use super::slot::Slot;
 
@@ -42,9 +43,15 @@ impl TournamentEntry {
     }
 
     /// The spread over the grid.
-    pub(super) fn spread(&self, engine: &Engine<'_>, run: &Run<'_>, entrants: &[Entrants]) -> Result<Spread, Stopped> {
+    pub(super) fn spread(
+        &self,
+        engine: &Engine<'_>,
+        run: &Run<'_>,
+        entrants: &[Entrants],
+        errors: Option<&Errors>,
+    ) -> Result<Spread, Stopped> {
         let path = engine.path();
-        let field = Field::new(engine, self, run, entrants)?;
+        let field = Field::new(engine, self, run, entrants, errors)?;
         let [torques, speeds] = run.points.field.axes().unwrap_or_default();
         if field.scale.iter().any(Option::is_none) {
             let message = "an efficiency, or a loss torque, needs speed and torque at every point";
@@ -52,6 +59,15 @@ impl TournamentEntry {
         }
         let scales: Vec<f64> = field.scale.iter().map(|s| s.unwrap_or(0.0)).collect();
         let variances: Vec<f64> = field.slots.iter().map(|slot| variance(slot, &scales)).collect();
+        let bands = match errors {
+            Some(_) => bands(engine, &field)?.into_iter().map(Some).collect(),
+            None => vec![None; scales.len()],
+        };
+        if errors.is_some() {
+            let losses = |part: usize| field.points.iter().map(|p| p.parts[part]).sum();
+            let losses: Vec<f64> = (0..run.built.transmission.parts().len()).map(losses).collect();
+            engine.weigh_model_error(&run.built.name, &losses);
+        }
         let whole: f64 = variances.iter().sum();
         let share = |(slot, variance): (&Slot, &f64)| ShareOfSpread {
             mechanism: slot.name.clone(),
@@ -64,7 +80,12 @@ impl TournamentEntry {
             combinations: field.count(),
             mechanisms: field.mechanisms(),
             shares_of_spread: field.slots.iter().zip(&variances).map(share).collect(),
-            points: (0..scales.len()).map(|i| point(&field, i, scales[i])).collect(),
+            points: (0..scales.len())
+                .map(|i| SpreadPoint {
+                    band_w: bands[i],
+                    ..point(&field, i, scales[i])
+                })
+                .collect(),
             unit_in_words: self.unit_in_words(),
             deviation_rms: f64::sqrt(whole / scales.len() as f64),
             torques: torques.to_vec(),
@@ -85,6 +106,7 @@ fn point(field: &Field<'_>, i: usize, scale: f64) -> SpreadPoint {
         mean_loss_w: field.rest[i],
         greatest_loss_w: field.rest[i],
         deviation_w: 0.0,
+        band_w: None,
         scale,
     };
     for slot in &field.slots {

@@ -103,11 +103,21 @@ fn shortlist(name: &str, ranking: &Ranking) -> Table {
 
 /// One row for each point of the grid.
 fn points(name: &str, spread: &Spread) -> Table {
+    let with_bands = spread.points.iter().any(|point| point.band_w.is_some());
+    let ends = [
+        ("band_low_w", "Lower end of the 95 % band with the error of the models"),
+        ("band_median_w", "Its median"),
+        ("band_high_w", "Its upper end"),
+    ];
+    let ends = with_bands.then_some(ends.into_iter().enumerate());
     Table::of(name, &spread.points)
         .text("gear", "Gear", |_| &spread.gear)
         .fields(
             "torque_nm speed_rpm least_loss_w mean_loss_w greatest_loss_w deviation_w",
             |point| point,
         )
+        .each(ends.into_iter().flatten(), |table, (k, (name, meaning))| {
+            table.number(name, "W", meaning, |point| point.band_w.map(|band| band[k]))
+        })
         .finish()
 }

@@ -27,11 +27,16 @@ pub struct Cell {
     pub in_band: Option<f64>,
     /// Share of points at which all models are inside their stated ranges. [-]
     pub in_range: f64,
+    /// Standard deviation of the logarithm of `ratio` from the inputs and the accuracy of the measurement; absent without both. [-]
+    pub error: Option<f64>,
+    /// Standard deviation of the logarithms of the ratios of the points; absent for a single point. [-]
+    pub scatter: Option<f64>,
 }
 
 impl Cell {
-    /// Of points with positive ratios; absent without points.
-    pub fn of(points: &[ValidatedPoint]) -> Option<Self> {
+    /// Of points with positive ratios, with the means of the logarithms of the ratios in samples of the inputs and of the measurement;
+    /// absent without points.
+    pub fn of(points: &[ValidatedPoint], sampled: &[f64]) -> Option<Self> {
         let logs = Statistics::from_values(points.iter().map(|point| point.ratio.ln()))?;
         let differences: Vec<f64> = points.iter().map(|point| 100.0 * (point.ratio - 1.0)).collect();
         let of = Statistics::from_values(differences.iter().copied())?;
@@ -49,8 +54,18 @@ impl Cell {
             max_percent: if -of.least > of.greatest { of.least } else { of.greatest },
             in_band: bands.map(|bands| share(bands.iter().filter(holds).count())),
             in_range: share(points.iter().filter(|point| point.in_range).count()),
+            error: deviation(sampled),
+            scatter: deviation(&points.iter().map(|point| point.ratio.ln()).collect::<Vec<_>>()),
         })
     }
+}
+
+/// Standard deviation of values about their mean; absent below two.
+fn deviation(values: &[f64]) -> Option<f64> {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares = values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>();
+    (values.len() > 1).then(|| (squares / (count - 1.0)).sqrt())
 }
 
 #[cfg(test)]
@@ -74,21 +89,29 @@ mod tests {
 
     #[test]
     fn double_and_half_are_as_far_from_one() {
-        let cell = Cell::of(&[point(2.0, Some([1.5, 3.0]), true), point(0.5, Some([0.2, 1.1]), false)]).unwrap();
+        let cell = Cell::of(
+            &[point(2.0, Some([1.5, 3.0]), true), point(0.5, Some([0.2, 1.1]), false)],
+            &[-0.1, 0.1],
+        )
+        .unwrap();
         assert!((cell.ratio - 1.0).abs() < 1e-12 && (cell.greatest - 2.0).abs() < 1e-12);
         assert!((cell.bias_percent - 25.0).abs() < 1e-9 && (cell.max_percent - 100.0).abs() < 1e-9);
         assert!((cell.rms_percent - 6250.0_f64.sqrt()).abs() < 1e-9);
         assert_eq!((cell.in_band, cell.in_range), (Some(0.5), 0.5));
+        let near = |found: Option<f64>, expected: f64| (found.unwrap() - expected).abs() < 1e-12;
+        assert!(near(cell.error, 0.02_f64.sqrt()) && near(cell.scatter, 2.0_f64.sqrt() * 2.0_f64.ln()));
     }
 
     #[test]
     fn without_all_bands_nothing_is_inside() {
         assert_eq!(
-            Cell::of(&[point(1.0, None, true), point(1.0, Some([0.5, 2.0]), true)])
+            Cell::of(&[point(1.0, None, true), point(1.0, Some([0.5, 2.0]), true)], &[])
                 .unwrap()
                 .in_band,
             None
         );
-        assert_eq!(Cell::of(&[]), None);
+        assert_eq!(Cell::of(&[], &[]), None);
+        let alone = Cell::of(&[point(1.0, None, true)], &[]).unwrap();
+        assert_eq!((alone.error, alone.scatter), (None, None));
     }
 }
