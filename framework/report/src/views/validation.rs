@@ -65,9 +65,9 @@ fn show(outcome: &ValidationOutcome, page: &mut Page) {
     }
 }
 
-/// A ratio with two decimals; one of more than ten with three digits.
+/// A ratio with two decimals; one of more than ten or less than a hundredth with three digits.
 pub fn ratio_text(ratio: f64) -> String {
-    if ratio < 10.0 {
+    if (0.01..10.0).contains(&ratio) {
         number(Some(ratio), 2)
     } else {
         short(ratio)

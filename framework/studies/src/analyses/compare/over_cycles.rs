@@ -8,7 +8,7 @@ use super::cases::{cases, names};
 use super::{CompareEntry, model_error};
 use crate::analyses::balance::reason;
 use crate::analyses::cycle::results::per_distance;
-use crate::analyses::duties::{DrivePlan, Duties, Read, sums_energies};
+use crate::analyses::duties::{DrivePlan, Duties, Read, Unfinished, sums_energies};
 use crate::analyses::inputs::Input;
 use crate::analyses::model_error::energies_of_parts;
 use crate::analyses::shares::{Shares, together};
@@ -16,7 +16,7 @@ use crate::analyses::trial::Trial;
 use crate::analyses::{Built, Engine, Planner, Stopped};
 use crate::codes;
 use crate::points::{Driven, Note, notes, notes_over_time};
-use crate::study::{By, RideEntry};
+use crate::study::RideEntry;
 use crate::table::Table;
 
 /// Differences of one set or variant from the base over one cycle.
@@ -114,9 +114,11 @@ pub(super) fn compare(
     let driven = plan.drive(engine)?;
     whole(engine, plan, &driven)?;
     let losses = |_: usize, _: &Trial<'_>, t: &Transmission| {
-        let driven = duties.mean_losses(engine, t, By::Component, &[]);
-        let (losses, _) = driven.map_err(|unfinished| unfinished.message)?;
-        Ok(losses.into_iter().map(|mean| vec![mean.loss]).collect())
+        let driven = duties.drive_all(engine, t).map_err(Unfinished::text)?;
+        // A cycle without time has no energy.
+        let mean =
+            |driven: &Driven| driven.total.parts.iter().sum::<f64>() / driven.total.duration.max(f64::MIN_POSITIVE);
+        Ok(driven.iter().map(|driven| vec![mean(driven)]).collect())
     };
     let bands = model_error::bands(engine, entry, (built, inputs), &losses)?;
     for (b, driven) in built.iter().zip(&driven).filter(|_| !inputs.is_empty()) {
