@@ -111,18 +111,4 @@ thermal: { mode: fixed, oil: 70 degC }
             efficiency(-10.0)
         );
     }
-
-    #[test]
-    fn probe() {
-        for name in ["friction", "efficiency", "point_contact"] {
-            let entry = language().registry().model("crossed_helical_mesh", name).unwrap();
-            let faults = gearloss_framework::checks::faults(language(), entry);
-            assert!(faults.is_empty(), "{faults:?}");
-        }
-        for name in ["friction", "efficiency", "agma", "din_3996"] {
-            let entry = language().registry().model("worm_mesh", name).unwrap();
-            let faults = gearloss_framework::checks::faults(language(), entry);
-            assert!(faults.is_empty(), "{faults:?}");
-        }
-    }
 }

@@ -59,6 +59,7 @@ impl Flow {
         loop {
             match self.walk(&way, work, &mut losses) {
                 End::Agreed => return converged(work),
+                End::Open if self.mark_locked(work) => return self.search(way, work, &mut losses),
                 End::Open => return Outcome::NoConvergence,
                 // The friction just used was on the wrong gear, so this flow is invalid.
                 End::Turned if work.turned.iter().all(|turned| *turned <= TURNS) => way.start = Start::Lossless,
@@ -225,6 +226,19 @@ impl Flow {
             }
         }
         turned
+    }
+
+    /// Marks the steep meshes that lose all of the power of their driving gear, whose torque then grows without bound; true if there are any.
+    fn mark_locked<R: Points>(&self, work: &mut Work<R>) -> bool {
+        let mut any = false;
+        for (k, _) in self.meshes.iter().enumerate().filter(|(_, mesh)| mesh.steep) {
+            let (loss, power) = (work.mesh_loss[k].at_point(0), work.rolling[k].at_point(0).abs());
+            if R::COUNT == 1 && power > 0.0 && loss >= power {
+                work.turned[k] = work.turned[k].max(1);
+                any = true;
+            }
+        }
+        any
     }
 
     /// Tries patterns of the meshes whose driving gear kept changing, in order of the number of changes to the ideal pattern.

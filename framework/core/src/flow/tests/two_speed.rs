@@ -241,3 +241,15 @@ fn a_loss_of_most_of_the_power_is_followed_from_the_driven_side() {
     assert_eq!(solved.status(&[0, 1]), Status::Drive);
     assert!(solved.passes() <= 3, "{:?}", solved.outcome);
 }
+
+/// As a worm drive that locks: the driven shaft cannot give off power, so no torque of the driving one maintains its motion; if both are driven,
+/// their torques are found.
+#[test]
+fn a_loss_of_more_than_the_power_locks() {
+    let rig = Rig::new(2).mesh(0, 1.0, 1, 40.0, None, 1.5);
+    let braked = solve(&rig, &[0, 1], &[(0, 100.0)], &[(0, -1.0)]);
+    assert_eq!(braked.outcome, Outcome::SelfLocking);
+    assert_eq!(braked.work.doubtful().collect::<Vec<_>>(), [0]);
+    let pushed = solve(&rig, &[0, 1], &[(0, 100.0)], &[(1, -40.0)]);
+    close(pushed.work.ports[0], 0.5, 1.0);
+}
