@@ -198,6 +198,65 @@ proptest! {
     }
 }
 
+/// Checks torques, power and the equilibrium of both shafts at a point of a bevel stage with the bearings of these examples.
+fn check_balance(t: &Transmission, torque: f64, speed: f64, share: f64) {
+    solved(t, torque, speed, |s| {
+        let tooth = s.tooth_force(0).unwrap();
+        let (place, moment) = (Vector3::from(tooth.place), Vector3::from(tooth.moment));
+        let (on_first, radial) = (Vector3::from(tooth.force), s.radial_forces());
+        let power = [0, 1].map(|port| s.torque(port) * s.speed(t.ports()[port].member));
+        let input = power[0].max(power[1]);
+        close(power[0] + power[1], share * input, 1e-10 * input);
+        for (gear, positions) in [[0.11, 0.19], [0.08, -0.06]].into_iter().enumerate() {
+            let sense = if gear == 0 { 1.0 } else { -1.0 };
+            let axis = t.axes()[t.ports()[gear].member];
+            let (origin, [k, e2, e3]) = (Vector3::from(axis.origin), axis.frame.map(Vector3::from));
+            let (force, moment) = (on_first * sense, moment * sense);
+            let about_axis = k.dot(&((place - origin).cross(&force) + moment));
+            let scale = s.torque(gear).abs();
+            close(about_axis + s.torque(gear), 0.0, 1e-10 * scale);
+            // The first bearing takes the thrust.
+            let thrust = force.dot(&k);
+            close(s.load(2 * gear).axial, thrust.abs(), 1e-11 * force.norm());
+            let (mut sum, mut moments) = (force, (place - origin).cross(&force) + moment + k * s.torque(gear));
+            for (bearing, at) in positions.into_iter().enumerate() {
+                let [y, z] = radial[2 * gear + bearing].unwrap();
+                let along = if bearing == 0 { -thrust } else { 0.0 };
+                let reaction = e2 * y + e3 * z + k * along;
+                sum += reaction;
+                moments += (k * at).cross(&reaction);
+            }
+            assert!(sum.norm() < 1e-11 * force.norm(), "{sum}");
+            assert!(moments.norm() < 1e-10 * scale, "{moments}");
+        }
+    });
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// With friction in the forces the torques about both axes are those of the power flow, whichever gear drives on whichever flanks, and the
+    /// bearings hold the shafts.
+    #[test]
+    fn forces_with_friction_balance(
+        roll in -3.0..3.0_f64, pitch in -1.5..1.5_f64, yaw in -3.0..3.0_f64, left in any::<bool>(),
+        drives in any::<bool>(), forwards in any::<bool>(), is_hypoid in any::<bool>(),
+    ) {
+        let turn = Rotation3::from_euler_angles(roll, pitch, yaw);
+        let hand = if left { "left" } else { "right" };
+        let text = if is_hypoid {
+            hypoid(&turn, hand)
+        } else {
+            BEVEL.replace("left", hand).replace("35 deg\n", "35 deg\n    offset: 0 mm\n")
+        };
+        let lossy = text.replace("    offset:", "    model: { type: share, value: 0.03 }\n    offset:");
+        let speed = if forwards { 1200.0 } else { -1200.0 };
+        let torque = if drives == forwards { 250.0 } else { -250.0 };
+        check_balance(&built(&text), torque, speed, 0.0);
+        check_balance(&built(&lossy), torque, speed, 0.03);
+    }
+}
+
 #[test]
 fn what_does_not_fit_is_said_with_both_numbers() {
     let with = |from: &str, to: &str| findings(&BEVEL.replace(from, to));
@@ -307,7 +366,7 @@ fn a_worm_pushes_along_its_axis_what_its_wheel_carries_around() {
             "150 mm], d",
             "12.5000 follows from the distance of the axes",
         ),
-        ("diameter_factor: 9, ", "", "stated not once"),
+        ("diameter_factor: 9, ", "", "the diameter of the worm is missing"),
         ("z: 41", "z: 41, hand: left", "worm and wheel have the same hand"),
         ("z: 2", "z: 2, faces: end", "`faces` does not apply"),
     ] {

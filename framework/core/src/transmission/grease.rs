@@ -166,7 +166,7 @@ fn of_gears(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>, fou
         .collect();
     for gear in &greased {
         let radius = 0.5 * gear.diameters[1].max(gear.diameters[2]);
-        if let Some(depth) = depth(oils, gear.member, gear.at, radius).filter(|depth| *depth > 0.0) {
+        if let Some(depth) = depth(oils, gear.member, gear.tip_at, radius).filter(|depth| *depth > 0.0) {
             found.push(
                 Diagnostic::warning(
                     format!("gears.{}.lubricant", gear.id),

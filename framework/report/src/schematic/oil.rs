@@ -20,7 +20,7 @@ const RUNNING: &str = "fill=\"none\" stroke=\"#b5541c\" stroke-width=\"1.6\" str
 
 /// Draws the oil of a housing at a point as a self-contained `<svg>` element, seen along the shafts; `None` if the oil space is not known.
 ///
-/// The outline is drawn dashed if it is the hull of the gears. Circles are the tip circles of gears whose axes do not move. An inclined
+/// The outline is drawn dashed if it is the hull of the gears. Circles are the tip circles of gears with fixed axes along x. An inclined
 /// surface is drawn where it meets the middle of the section. `resolved` is the document that the transmission was built from.
 pub fn oil_section(transmission: &Transmission, resolved: &Value, levels: &OilLevels) -> Option<String> {
     let sump = transmission.oil_space()?;
