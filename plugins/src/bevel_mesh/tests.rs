@@ -30,10 +30,10 @@ bevel_meshes:
     model: MODEL
 surface: { ra: 0.4 um }
 bearings:
-  P1: { shaft: pinion_shaft, at: -190 mm, axial: both, model: none }
-  P2: { shaft: pinion_shaft, at: -105 mm, model: none }
-  W1: { shaft: wheel_shaft, at: -45 mm, axial: both, model: none }
-  W2: { shaft: wheel_shaft, at: 85 mm, model: none }
+  P1: { shaft: pinion_shaft, at: -190 mm, designation: '6210', axial: both, model: none }
+  P2: { shaft: pinion_shaft, at: -105 mm, designation: '6210', model: none }
+  W1: { shaft: wheel_shaft, at: -45 mm, designation: '6210', axial: both, model: none }
+  W2: { shaft: wheel_shaft, at: 85 mm, designation: '6210', model: none }
 lubricants: { oil: { viscosity: { kv40: 100 mm2/s, kv100: 11 mm2/s } } }
 ";
 

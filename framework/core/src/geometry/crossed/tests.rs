@@ -600,6 +600,8 @@ fn cylinders_have_the_loss_factor_of_cylindrical_gears() {
             mean_addendum: addendum,
             mean_dedendum: [2e-3; 2],
             facewidth: [spec.facewidth; 2],
+            outer: [0.5 * spec.facewidth; 2],
+            outer_dedendum: [2e-3; 2],
             tip_diameter: cylindrical.tip_diameter,
         };
         let pair = Pair::bevel(&cones, &blank, (angle, 0.0), Flank::Drive).unwrap();
