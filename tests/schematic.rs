@@ -409,7 +409,7 @@ fn gap(picture: &Picture, gears: &serde_json::Value) -> f64 {
 fn gears_in_mesh_touch() {
     for picture in pictures() {
         let (mut closed, mut dotted) = (0, 0);
-        for (id, mesh) in picture.resolved["meshes"].as_object().unwrap() {
+        for (id, mesh) in picture.resolved["meshes"].as_object().into_iter().flatten() {
             let gap = gap(&picture, &mesh["gears"]);
             let scale = scale(&picture);
             // A second pair on the same axes may differ by the height of a tooth.
@@ -445,7 +445,10 @@ fn scale(picture: &Picture) -> f64 {
 
 #[test]
 fn gears_have_one_scale() {
-    for picture in pictures() {
+    for picture in pictures()
+        .into_iter()
+        .filter(|picture| picture.svg.contains("data-part=\"gears."))
+    {
         let scale = scale(&picture);
         for gear in picture.transmission.gears() {
             let [left, top, right, bottom] = rectangle(&picture.svg, &format!("gears.{}", gear.id));
