@@ -1088,6 +1088,7 @@ proptest! {
     ) {
         let mesh = CylindricalMesh {
             members: [0, 1], at: 0.0, radius: [0.03, 0.09], sign, direction: [angle.cos(), angle.sin()],
+            across: 1.0,
             tan_alpha: 0.4, hand_tan_beta: beta.tan(), count: 1.0, central: [false; 2],
         };
         let on = |gear: usize| -> Vec<f64> {
