@@ -281,3 +281,67 @@ fn rexs_has_the_ids_units_and_values_of_version_1_7() {
         "{told}"
     );
 }
+
+/// A shaft on three bearings: with the stiffness that follows from a load the reactions are those of the same number typed, and less even
+/// than with rigid ones.
+#[test]
+fn a_shaft_on_three_bearings_reacts_to_their_stiffness() {
+    let text = std::fs::read_to_string(crate::common::file("tests/cases/fine_oil_from_volume/input.yaml")).unwrap();
+    let loads = |middle: &str| -> Result<(Vec<f64>, Option<f64>), String> {
+        let shaft = "  shaft_in:  { axis: [0 mm, 0 mm], sections: [{ from: 0 mm, to: 120 mm, outer: 25 mm }] }\n";
+        let third =
+            format!("bearings:\n  third: {{ shaft: shaft_in, at: 120 mm, designation: \"6205\" }}\n  {middle}\n");
+        let text = text
+            .replace("  shaft_in:  { axis: [0 mm, 0 mm] }\n", shaft)
+            .replace(
+                "  right_in:  { shaft: shaft_in,  at: 60 mm, designation: \"6205\" }\n",
+                "",
+            )
+            .replace("bearings:\n", &third);
+        let (language, files) = (crate::common::language(), gearloss::api::InMemory::default().shared());
+        let path = std::path::Path::new("");
+        let gearbox = gearloss::api::Gearbox::from_text(&language, &files, &text, "three.yaml", path);
+        let gearbox = gearbox.map_err(|found| found.render())?;
+        let t = gearbox.transmission(&language, &gearloss::api::Choice::default());
+        let t = t.map_err(|found| found.render())?;
+        let case = t.case(&t.states()[0].name, &[], &["input"]).unwrap();
+        let mut scratch = t.scratch(&case);
+        let point = gearloss_framework::evaluate::Point {
+            speeds: &[100.0],
+            torques: &[40.0],
+            ..Default::default()
+        };
+        let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
+        let paths = ["bearings.left_in", "bearings.right_in", "bearings.third"];
+        let radial = |path: &str| {
+            let part = t.parts().iter().position(|part| part.path == path).unwrap();
+            let readings = solution.readings(part);
+            readings.iter().find(|reading| reading.name == "radial").unwrap().value
+        };
+        let stiffness = t.stiffnesses().next().map(|(_, _, stiffness)| stiffness);
+        Ok((paths.iter().map(|path| radial(path)).collect(), stiffness))
+    };
+    let bearing = |keys: &str| format!("right_in: {{ shaft: shaft_in, at: 60 mm, designation: \"6205\"{keys} }}");
+    let (rigid, none) = loads(&bearing("")).unwrap();
+    assert_eq!(none, None);
+    let (soft, stiffness) = loads(&bearing(", radial_stiffness: { at_load: 500 N }")).unwrap();
+    let typed = stiffness.unwrap() * 1e-3;
+    let (same, _) = loads(&bearing(&format!(", radial_stiffness: {typed} N/mm"))).unwrap();
+    for (soft, same) in soft.iter().zip(&same) {
+        assert!((soft / same - 1.0).abs() < 1e-12, "{soft} {same}");
+    }
+    assert!(
+        soft[1] < 0.999 * rigid[1],
+        "the middle bearing yields: {soft:?} {rigid:?}"
+    );
+    let (softer, _) = loads(&bearing(", radial_stiffness: { at_load: 50 N }")).unwrap();
+    assert!(softer[1] < soft[1]);
+    let refused = loads(
+        "right_in: { shaft: shaft_in, at: 60 mm, kind: spherical_roller, bore: 25 mm, outside: 52 mm, model: none, radial_stiffness: { at_load: 500 N } }",
+    );
+    let message = refused.unwrap_err();
+    assert!(
+        message.contains("E0315") && message.contains("this kind of bearing"),
+        "{message}"
+    );
+}

@@ -491,3 +491,35 @@ fn a_circuit_of_oil_that_does_not_close_is_reported_and_no_exchanger_cools_the_a
         refused.first()
     );
 }
+
+/// A pair face to face whose preload grows as it warms its shaft: up to a closing when cold there is a steady state, whose temperatures rise
+/// faster and faster with it; beyond, the bodies warm past every temperature.
+#[test]
+fn a_pair_that_tightens_as_it_warms_may_have_no_steady_state() {
+    let at = |closing: f64| {
+        let preload = json!({ "closing": format!("{closing} um"), "housing": { "material": "cast_iron" } });
+        let drive = Drive {
+            file: "examples/industrial-reducer/gearbox.yaml",
+            gear: "only",
+            speed: 1480.0,
+            torque: 290.0,
+            set: vec![
+                ("thermal.mode", json!("network")),
+                ("thermal.network", json!("auto")),
+                ("bearings.B1.preload", preload),
+            ],
+        };
+        drive.rest(&common::language())
+    };
+    let shaft = |closing: f64| {
+        let found = at(closing);
+        assert_eq!(found.steady.outcome, Outcome::Converged, "{closing}");
+        found.temperature("input")
+    };
+    let [cold, warm, hot] = [0.0, 6.0, 12.0].map(shaft);
+    assert!(warm > cold && hot - warm > 1.5 * (warm - cold), "{cold} {warm} {hot}");
+    let none = at(20.0);
+    assert_eq!(none.steady.outcome, Outcome::NoneBelowMaximum);
+    let oil = none.steady.temperatures[none.transmission.network().unwrap().oil()];
+    assert!((149.0..260.0).contains(&oil), "{oil}");
+}

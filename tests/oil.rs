@@ -2,7 +2,8 @@
 
 use crate::common::{file, language};
 use gearloss::api::{Choice, Gearbox, InMemory, Language};
-use gearloss::studies::checked::{CheckedGearbox, dry_bearings};
+use gearloss::studies::checked::CheckedGearbox;
+use gearloss_framework::codes;
 use gearloss_framework::evaluate::{LevelFrom, OilLevels, Point};
 use gearloss_framework::transmission::Transmission;
 use std::path::Path;
@@ -141,27 +142,150 @@ fn the_band_is_an_input() {
     assert!(low.0.running < high.0.running && low.1 < high.1, "{low:?} {high:?}");
 }
 
+/// Path and message of the warnings of a gearbox about its oil.
+fn doubts(text: &str) -> Vec<(String, String)> {
+    let (language, files) = (language(), InMemory::default().shared());
+    let gearbox = Gearbox::from_text(&language, &files, text, "slow.yaml", Path::new(""));
+    let gearbox = gearbox.unwrap_or_else(|found| panic!("{}", found.render()));
+    let resolved = gearbox.resolve(&language, &Choice::default()).unwrap();
+    let checked = CheckedGearbox::new(&language, gearbox, resolved);
+    let checked = checked.unwrap_or_else(|found| panic!("{}", found.render()));
+    let warnings = checked.warnings().into_iter();
+    let of_oil = warnings.filter(|found| {
+        [codes::OIL_LEVEL, codes::STATED_OVER_DRAWING]
+            .map(Some)
+            .contains(&found.code)
+    });
+    of_oil.map(|found| (found.path, found.message)).collect()
+}
+
 #[test]
 fn bearings_that_no_oil_reaches_are_named() {
-    let check = |speed: &str| {
-        let text = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
-        let text = text.replace("100 rpm", speed);
-        let (language, files) = (language(), InMemory::default().shared());
-        let gearbox = Gearbox::from_text(&language, &files, &text, "slow.yaml", Path::new("")).unwrap();
-        let resolved = gearbox.resolve(&language, &Choice::default()).unwrap();
-        let checked = CheckedGearbox::new(&language, gearbox, resolved).unwrap();
-        dry_bearings(&checked)
-    };
+    let slow = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+    let check = |speed: &str| doubts(&slow.replace("100 rpm", speed));
     let found = check("100 rpm");
-    let paths: Vec<&str> = found.iter().map(|found| found.path.as_str()).collect();
+    let paths: Vec<&str> = found.iter().map(|(path, _)| path.as_str()).collect();
     assert_eq!(paths, ["bearings.left_in", "bearings.right_in", "bearings.left_out"]);
     assert!(
         found[0]
-            .message
+            .1
             .contains("the level is -38 mm, and the fastest gear in the oil has 0.219911 m/s of the 3 m/s"),
         "{}",
-        found[0].message
+        found[0].1
     );
     // The wheel splashes.
     assert!(check("1500 rpm").is_empty());
+}
+
+/// Behind a wall only a pocket supplies a bearing, however fast gears splash.
+#[test]
+fn a_bearing_behind_a_wall_needs_a_pocket_with_oil() {
+    let slow = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+    let with = |keys: &str| {
+        let bearing = format!("at: 60 mm, designation: \"6205\", {keys} }}");
+        doubts(
+            &slow
+                .replace("100 rpm", "1500 rpm")
+                .replace("at: 60 mm, designation: \"6205\" }", &bearing),
+        )
+    };
+    let found = with("fed: false");
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, "bearings.right_in");
+    assert!(
+        found[0].1.contains("`fed: false` keeps the oil of the sump at -"),
+        "{found:?}"
+    );
+    assert!(found[0].1.ends_with("it has no pocket"), "{found:?}");
+    let pocket = "fed: false, pocket: { edge: 5 mm, edge_radius: 15 mm, catch: { width: 20 mm } }";
+    assert_eq!(with(pocket), []);
+    // Ribs catch nothing while the gears are too slow to throw oil.
+    let found = doubts(&slow.replace(
+        "at: 60 mm, designation: \"6205\" }",
+        &format!("at: 60 mm, designation: \"6205\", {pocket} }}"),
+    ));
+    let own = found
+        .iter()
+        .find(|(path, message)| path == "bearings.right_in" && message.contains("pocket"));
+    assert!(
+        own.is_some_and(|(_, message)| message.ends_with("0 l/min flow into its pocket at the rated speed")),
+        "{found:?}"
+    );
+}
+
+/// A rib catches its part of the oil that the gears lift at the point.
+#[test]
+fn lifted_oil_fills_pockets() {
+    let language = language();
+    let solved = |rib: &str, speed: f64| {
+        let text = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+        let pocket = format!(
+            "at: 60 mm, designation: \"6205\", pocket: {{ edge: 5 mm, edge_radius: 15 mm, catch: {{ {rib} }} }} }}"
+        );
+        let text = text.replace("at: 60 mm, designation: \"6205\" }", &pocket);
+        let files = InMemory::default().shared();
+        let gearbox = Gearbox::from_text(&language, &files, &text, "slow.yaml", Path::new("")).unwrap();
+        let t = gearbox.transmission(&language, &Choice::default());
+        let t = t.unwrap_or_else(|found| panic!("{}", found.render()));
+        let case = t.case(&t.states()[0].name, &[], &["input"]).unwrap();
+        let mut scratch = t.scratch(&case);
+        let point = Point {
+            speeds: &[speed * std::f64::consts::PI / 30.0],
+            torques: &[10.0],
+            ..Point::default()
+        };
+        let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
+        let pocket = solution.pockets().next().unwrap();
+        let lifted = solution.oil_levels().unwrap().estimate.unwrap().lifted;
+        (
+            pocket.inflow,
+            pocket.height,
+            lifted,
+            t.oil_space().unwrap().walls().length,
+        )
+    };
+    let (inflow, height, lifted, walls) = solved("width: 20 mm", 3000.0);
+    assert!(lifted > 0.0 && height > 5e-3, "{lifted} {height}");
+    assert!(
+        (inflow / (lifted * 0.02 / walls * 0.5) - 1.0).abs() < 1e-12,
+        "{inflow} {lifted}"
+    );
+    let (half, ..) = solved("width: 20 mm, walls: 800 mm, above: 0.25", 3000.0);
+    assert!((half / (lifted * 0.02 / 0.8 * 0.25) - 1.0).abs() < 1e-12);
+    // Below the speed at which gears throw oil there is none, and a typed flow stays.
+    assert_eq!(solved("width: 20 mm", 100.0).0, 0.0);
+    let (typed, ..) = solved("wetting: 20 l/min, width: 50 mm, walls: 400 mm", 100.0);
+    assert!((typed * 6e4 - 1.25).abs() < 1e-12, "{typed}");
+}
+
+/// The share of the case that a churning law states replaces that of the drawing, and is compared with it.
+#[test]
+fn a_stated_share_of_the_case_that_is_not_drawn_is_said() {
+    let slow = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+    let inside = "  inside: { sections: { case: { from: 10 mm, to: 50 mm, y: [-40 mm, 110 mm, 110 mm, -40 mm], z: [-50 mm, -50 mm, 50 mm, 50 mm] } } }\n  \
+                  clearance: { radial: 6 mm, axial: 10 mm }\nlubricants:";
+    let with = |fill: &str| {
+        let law = format!("{{ type: shore{fill} }}");
+        let text = slow
+            .replace("{ type: changenet_2011 }", &law)
+            .replace("lubricants:", inside);
+        let text = text
+            .replace("100 rpm", "1500 rpm")
+            .replace("volume: 0.06 l, level: -38 mm", "level: -38 mm");
+        doubts(&text)
+            .into_iter()
+            .filter(|(path, _)| path.ends_with("fill"))
+            .collect::<Vec<_>>()
+    };
+    let found = with(", fill: 0.3");
+    let paths: Vec<&str> = found.iter().map(|(path, _)| path.as_str()).collect();
+    assert_eq!(
+        paths,
+        ["gears.pinion.drag.churning.fill", "gears.wheel.drag.churning.fill"]
+    );
+    assert!(
+        found[0].1.starts_with("0.3 is stated, and the oil at rest fills 0.1"),
+        "{found:?}"
+    );
+    assert_eq!(with(""), []);
 }

@@ -248,7 +248,7 @@ fn shortages_have_their_numbers() {
         ),
         (
             "oil_network.pipes.intake",
-            "10.0 mm below the oil surface at -50.0 mm; two diameters are 24.0 mm",
+            "8.0 mm below the oil surface at -52.0 mm; two diameters are 24.0 mm",
         ),
         ("oil_network.chambers.room", "above the allowed 40.0 mm"),
         ("oil_network.nozzles.J2", "it has no flow"),
@@ -293,4 +293,42 @@ fn overrides_reach_the_network() {
     assert!(flow(&transmission(&wider)) > 1.2 * flow(&transmission(&[])));
     let aerated = [("oil_network.air", json!(0.1))];
     assert!(flow(&transmission(&aerated)) < 0.99 * flow(&transmission(&[])));
+}
+
+/// What stands in a chamber is missing from the sump: no oil is lost, and the level at rest, which churning takes, stays.
+#[test]
+fn chambers_lower_the_level_while_rotating() {
+    let text = std::fs::read_to_string(common::file("tests/oil_network/gearbox.yaml")).unwrap();
+    let levels = |chamber: &str, to: &str| {
+        let text = text
+            .replace(
+                "models:\n",
+                "models:\n  gear_drag: { churning: { type: changenet_2011 } }\n",
+            )
+            .replace("level: -80 mm", "level: -70 mm")
+            .replace("oil_network:\n", &format!("oil_network:\n{chamber}"))
+            .replace(
+                "count: 2, feeds: [meshes.M2]",
+                &format!("count: 2, feeds: [meshes.M2]{to}"),
+            );
+        let (language, files) = (language(), gearloss::api::InMemory::default().shared());
+        let path = std::path::Path::new("");
+        let gearbox = Gearbox::from_text(&language, &files, &text, "chamber.yaml", path);
+        let gearbox = gearbox.unwrap_or_else(|found| panic!("{}", found.render()));
+        let t = gearbox.transmission(&language, &Choice::default());
+        let t = t.unwrap_or_else(|found| panic!("{}", found.render()));
+        let space = t.oil_space().unwrap().space().clone();
+        let levels = solve(&t, 3000.0, 80.0, |solution| solution.oil_levels().unwrap());
+        (levels, space)
+    };
+    let room = "  chambers: { room: { floor: 20 cm2, drain: { diameter: 5 mm, length: 8 mm } } }\n";
+    let ((without, _), (with, space)) = (levels("", ""), levels(room, ", to: room"));
+    assert_eq!(with.at_rest.to_bits(), without.at_rest.to_bits());
+    assert!(with.running < without.running - 1e-4, "{with:?} {without:?}");
+    let [own, other] = [with, without].map(|levels| levels.estimate.unwrap());
+    assert_eq!(other.held, 0.0);
+    assert!(own.held > 1e-5, "{own:?}");
+    let kept = space.volume(with.running)[0] + own.missing + own.held;
+    assert!((kept / own.volume - 1.0).abs() < 1e-11, "{own:?}");
+    assert!(own.band.low() <= with.running && with.running <= own.band.high());
 }

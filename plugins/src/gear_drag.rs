@@ -14,6 +14,7 @@ pub mod iso14179_2;
 pub mod maurer;
 pub mod mauz;
 pub mod mauz_injection;
+pub(crate) mod rise;
 pub mod seetharaman_kahraman;
 pub mod shore;
 pub mod townsend;

@@ -18,7 +18,9 @@ pub use clearance::{Clearance, ClearancePlace, ClearanceSite};
 pub use common::Common;
 pub use member::{MemberPlace, MemberSite, OnMember};
 pub use preload::{BodyMaterial, PreloadBody, PreloadEntry};
-pub use support::{Axial, Factor, FactorOver, Support, SupportPlace, SupportSeat, SupportSite};
+pub use support::{
+    Axial, Factor, FactorOver, RadialStiffness, StiffnessLoad, Support, SupportPlace, SupportSeat, SupportSite,
+};
 
 use crate::codes;
 use crate::description::PocketEntry;

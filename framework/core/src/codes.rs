@@ -68,6 +68,9 @@ gearloss_document::codes! {
     OIL_SPACE = "E0314", "impossible oil space",
         cause: "The inside of the housing is not a polygon, gears reach out of it, or it holds less oil than is filled.",
         help: "Correct `housing.inside` or the volume of the oil.";
+    NO_STIFFNESS = "E0315", "stiffness of a bearing is not known",
+        cause: "`radial_stiffness` of a bearing states a load, but the loads of its rolling elements are not calculated or do not carry it.",
+        help: "State the stiffness as a number, or the inside of the bearing under `internal`.";
     AXES = "E0320", "axes do not fit each other",
         cause: "The axes of two gears in mesh, of both members of a bearing or of a planetary set are not parallel or do not cross as they have to.",
         help: "Correct `axis` of a shaft, or describe the mesh in the section for such axes: `meshes`, `bevel_meshes`, `worm_meshes` or `crossed_helical_meshes`.";
@@ -135,6 +138,9 @@ gearloss_document::codes! {
         cause: "At the rated speed, the inlet of a pump is in air or its pressure is too low, a relief valve never closes, a consumer has no flow, or a \
                 chamber floods.",
         help: "Change the pump, the pipe or the nozzle that the message names.";
+    STATED_OVER_DRAWING = "W0316", "a stated value replaces that of the drawing",
+        cause: "A value is stated that follows from the drawing of the housing and the level of its oil, and the two differ by more than a tenth.",
+        help: "Remove the stated value, or correct the outline or the level.";
     UNUSUAL_HAND = "W0320", "unusual combination of hand and offset",
         cause: "With this hand and offset of a hypoid pair the spiral angle of the pinion is smaller than that of the wheel, which is legal but rare: the \
                 pinion becomes smaller.",

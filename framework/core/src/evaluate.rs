@@ -235,15 +235,29 @@ impl Transmission {
                 *loss = self.drag(i, &state, &book, &mut live);
             }
         }
-        if let Some((sump, place)) = self.oils.estimated().filter(|(sump, _)| sump.read) {
+        let estimated = self.oils.estimated().filter(|(sump, _)| sump.read);
+        let wetting = self.oils.sump.as_ref().filter(|_| self.hydraulics.catches());
+        if let Some(sump) = wetting.or(estimated.map(|(sump, _)| sump)) {
             sump.lift(&self.drags, &m.drag_losses, &state, &mut m.lifted);
-            let running = sump.running(c.rest, &c.oils, &m.lifted);
-            let level = if place == 0.0 {
-                running.film_level(CAPTURE[1])
-            } else {
-                running.band().at(place)
+            let at = Inputs {
+                speeds: &c.speeds,
+                oils: &c.oils,
+                surface: c.surface,
             };
-            c.surface = level;
+            let held = self.hydraulics.held(&c.hydraulics, &at);
+            let running = sump.running(c.rest, held, &c.oils, &m.lifted);
+            if let Some((_, place)) = estimated {
+                c.surface = if place == 0.0 {
+                    running.film_level(CAPTURE[1])
+                } else {
+                    running.band().at(place)
+                };
+            }
+            if wetting.is_some() {
+                let nu = c.oils[sump.oil].nu;
+                let [_, flow] = running.missing(|i| m.lifted[i], c.surface, nu, CAPTURE[1]);
+                self.hydraulics.catch(flow, sump.walls().length, &at, &mut c.hydraulics);
+            }
         }
         let (state, book) = c.open(noting != Noting::Muted);
         let book = Notebook { starts, ..book };

@@ -14,7 +14,7 @@ pub use edge::Edge;
 pub(crate) use network::Inputs;
 pub use network::{Driver, Element, End, Fluid, Hydraulics, Law, Relief, Supplies, Supply};
 pub use orifice::Orifice;
-pub use pocket::{Chamber, Pocket};
+pub use pocket::{Chamber, Pocket, Rib};
 pub(crate) use solve::Work;
 
 /// Standard acceleration of gravity. \[m/s2\]

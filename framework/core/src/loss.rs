@@ -165,6 +165,16 @@ impl<R: Real> Loss<R> {
         self
     }
 
+    /// The result times a factor.
+    #[inline(always)]
+    #[must_use]
+    pub fn times(mut self, factor: R) -> Self {
+        for value in &mut self.values {
+            *value = *value * factor;
+        }
+        self
+    }
+
     /// Sets the share of a loss between two gears that reduces the torque of the first gear; default: half. From 0 to 1.
     #[inline]
     pub fn felt_by_first(mut self, share: R) -> Self {

@@ -211,6 +211,13 @@ pub trait Component: Mechanism<Answer = Loss> {
     fn angular_row(_part: &Self::Part) -> Result<AngularRow, Cow<'static, str>> {
         Err("it is no rolling bearing".into())
     }
+    /// Radial stiffness of a part under a radial load; an error says why this is not known. \[N and N/m\]
+    ///
+    /// # Errors
+    /// If the part has no load distribution.
+    fn radial_stiffness(_part: &Self::Part, _load: f64) -> Result<f64, Cow<'static, str>> {
+        Err("it is no rolling bearing".into())
+    }
     /// Radius of the lowest point over which the oil height at the place of a part matters to its context; `None` if it does not. \[m\]
     fn lowest(_part: &Self::Part) -> Option<f64> {
         Some(f64::INFINITY)

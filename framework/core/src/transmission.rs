@@ -269,6 +269,8 @@ pub struct Transmission {
     pub(crate) rated: Vec<RatedSupport>,
     /// Opposed bearings that load each other.
     pub(crate) pairs: Vec<BearingPair>,
+    /// Number of each support whose radial stiffness follows from a load, with both. \[N and N/m\]
+    pub(crate) stiffnesses: Vec<(usize, f64, f64)>,
     pub(crate) oils: Oils,
     pub(crate) hydraulics: Hydraulics,
     pub(crate) loads: Arc<ShaftLoads>,
@@ -362,9 +364,18 @@ impl Transmission {
     pub fn cells(&self) -> usize {
         self.cells
     }
+    /// Volume of the sump's oil at the oil temperature as described over that at another temperature in degC. \[-\]
+    pub fn oil_expansion(&self, from: f64) -> f64 {
+        self.oils.heat(from).0 / self.oils.heat(self.oil_temperature).0
+    }
     /// Opposed bearings that load each other.
     pub fn pairs(&self) -> &[BearingPair] {
         &self.pairs
+    }
+    /// Path of each bearing whose radial stiffness follows from a load, with both. \[N and N/m\]
+    pub fn stiffnesses(&self) -> impl Iterator<Item = (&str, f64, f64)> {
+        let each = self.stiffnesses.iter();
+        each.map(|(support, load, stiffness)| (self.supports[*support].as_str(), *load, *stiffness))
     }
     /// Cells of notes of limits, each with a component that uses the model; those of a bearing's static safety and spring with the
     /// bearing.

@@ -40,6 +40,13 @@ pub fn card(checked: &CheckedGearbox) -> String {
         text.push_str(&pair.sentence());
         text.push('\n');
     }
+    for (bearing, load, stiffness) in transmission.stiffnesses() {
+        let [stiffness, moved] = [1e-6 * stiffness, 1e6 * load / stiffness].map(short);
+        text.push_str(&format!(
+            "{bearing}: radial stiffness {stiffness} N/um at {} N ({moved} um)\n",
+            significant(load)
+        ));
+    }
     text.push_str(&ratio_lines(transmission));
     if let Some((volume, mass)) = transmission.oil_fill() {
         let [litres, mass] = [1e3 * volume, mass].map(short);

@@ -92,6 +92,7 @@ impl CheckedGearbox {
         });
         let dry = dry_bearings(self)
             .into_iter()
+            .chain(unfed_bearings(self))
             .map(|warning| self.gearbox.places.place(warning));
         let supply = self.short_of_oil();
         let built = self.transmission.warnings.iter().cloned();
@@ -250,6 +251,53 @@ pub fn dry_bearings(checked: &CheckedGearbox) -> Vec<Diagnostic> {
             .code(codes::OIL_LEVEL)
     };
     asked.into_iter().map(warning).collect()
+}
+
+/// Warnings for bearings that the oil of the sump does not reach (`fed: false`) and into whose pocket nothing flows at the rated speed.
+fn unfed_bearings(checked: &CheckedGearbox) -> Vec<Diagnostic> {
+    let t = &checked.transmission;
+    let bearings = &checked.resolved.value[Bearing::SECTION];
+    let entry = |path: &str| &bearings[path.split('.').nth(1).unwrap_or_default()];
+    let parts = t.parts().iter().filter(|part| part.mechanism == Bearing::KEY);
+    let mut asked: Vec<(&str, f64)> = parts
+        .map(|part| {
+            part.path
+                .split_once(".model")
+                .map_or(part.path.as_str(), |(bearing, _)| bearing)
+        })
+        .filter(|path| entry(path)["fed"] == false && entry(path)["lubrication"] != "grease")
+        .map(|path| (path, 0.0))
+        .collect();
+    if asked.is_empty() {
+        return Vec::new();
+    }
+    let mut level = None;
+    at_the_rating(t, |solution| {
+        level = solution.oil_levels().map(|levels| levels.running);
+        for pocket in solution.pockets() {
+            for (_, most) in asked.iter_mut().filter(|(path, _)| *path == pocket.bearing) {
+                *most = most.max(pocket.inflow);
+            }
+        }
+    });
+    let level = level.map_or_else(String::new, |level| format!(" at {} mm", significant(level * 1e3)));
+    let dry = asked.into_iter().filter(|(path, inflow)| {
+        // Without a rated speed nothing is known of the flow into a pocket.
+        *inflow == 0.0 && (t.rating.is_some() || entry(path)["pocket"].is_null())
+    });
+    let warning = |(path, _)| {
+        let pocket = if entry(path)["pocket"].is_null() {
+            "it has no pocket"
+        } else {
+            "0 l/min flow into its pocket at the rated speed"
+        };
+        let message =
+            format!("no oil reaches the bearing: `fed: false` keeps the oil of the sump{level} from it, and {pocket}");
+        Diagnostic::warning(path, message)
+            .help("add `pocket` with what feeds it, state `oil_height`, or remove `fed: false`")
+            .code(codes::OIL_LEVEL)
+    };
+    dry.map(warning).collect()
 }
 
 /// A quantity of a rating that is outside its bound at the rated torque and speed.

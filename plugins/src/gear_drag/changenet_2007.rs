@@ -15,6 +15,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::dipping::Dipping;
+use super::rise::{Rise, SWELL, churning};
 use super::{CHURNING, GRAVITY};
 use crate::checks::SIX_DIGITS;
 
@@ -54,20 +55,18 @@ coefficients! {
     }
 }
 
-/// Churning of one gear by Reynolds number.
-#[derive(Debug, Deserialize, JsonSchema)]
-pub struct Params {
-    /// Relative increase of the torque if the gear's lowest point moves towards its mate: 0 to 0.5. [-]
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 5.0))]
-    pub swell: f64,
-    #[serde(default)]
-    coefficients: Constants,
+churning! {
+    /// Churning of one gear by Reynolds number.
+    #[derive(Debug, Deserialize, JsonSchema)]
+    pub struct Params {
+        #[serde(default)]
+        coefficients: Constants,
+    }
 }
 
 struct Changenet {
     coefficients: Constants,
-    swell: f64,
+    rise: Rise,
     volume: f64,
 }
 
@@ -79,8 +78,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Changenet, Diagnostic> 
             .help("add `housing: { oil: { volume: 1.2 l } }` with your value, or `housing.inside`, from which the volume below the level follows"));
     };
     Ok(Changenet {
+        rise: params.rise(cx)?,
         coefficients: params.coefficients,
-        swell: params.swell,
         volume,
     })
 }
@@ -117,6 +116,13 @@ impl GearDragModel for Changenet {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        self.rise.applied(at, |at| self.alone(at))
+    }
+}
+
+impl Changenet {
+    /// The law without swell.
+    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let Some(gear) = Dipping::of(at) else {
             return Ok(Loss::MOMENTS);
         };
@@ -139,8 +145,7 @@ impl GearDragModel for Changenet {
             body.facewidth / diameter,
         );
         let torque = gear.torque(at.rho, at.observe(&C_M, c_m));
-        let swell = if at.towards_mesh > 0.0 { self.swell } else { 0.0 };
-        Ok(Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque * (1.0 + swell))))
+        Ok(Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque)))
     }
 }
 
@@ -149,7 +154,7 @@ register!(GearDrag, "changenet_2007", Params,
     example: "{ type: changenet_2007 }",
     evidence: [
         formula(Evidence::OneSource, "one public transcription, which uses other limits of Re"),
-        default_of("swell", Evidence::Assumed, "no public formula"),
+        default_of("swell", Evidence::Assumed, "no public formula; `swell_max` is derived"),
     ],
     checks: [
         Check {
@@ -174,4 +179,4 @@ register!(GearDrag, "changenet_2007", Params,
             ..SIX_DIGITS
         },
     ],
-    terms: [TERM], observed: [C_M, REYNOLDS], prepare: prepare);
+    limits: [SWELL], terms: [TERM], observed: [C_M, REYNOLDS], prepare: prepare);

@@ -4,9 +4,7 @@
 //! 121009: T = 1/2 rho w^2 R^3 S_m C_m; C_m by Reynolds number w R b/nu (4000) and speed parameter w^2 (R b m_n)^(1/3)
 //! (750 and 1250 m/s2, linear in between). Immersion depth at the reference circle and oil volume at rest, as set before the tests
 //! (quoted from memory): the exponents of speed contain how the level fell in them. Wetted surface of faces, rim and teeth. Single
-//! gear in a spacious case, automotive sizes (R 40 to 110 mm, module 1.5 to 5 mm, b 14 to 40 mm, to about 7000 rpm). A pair whose
-//! gears raise the oil towards the mesh loses more; no reliable formula is public, so the user states the increase `swell`, which
-//! applies if the gear's lowest point moves towards its mate.
+//! gear in a spacious case, automotive sizes (R 40 to 110 mm, module 1.5 to 5 mm, b 14 to 40 mm, to about 7000 rpm).
 //! For a bevel gear the surface is that of a frustum with the radius and the immersion depth of its outer end. No test of bevel gears behind
 //! it was readable (Laruelle and others 2017 have some): an extension of our own, uncertain by a factor of about two.
 
@@ -20,12 +18,14 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::dipping::Dipping;
+use super::rise::{Rise, SWELL, churning};
 use super::{CHURNING, GRAVITY};
 use crate::checks::SIX_DIGITS;
 
 terms! { TERM = no_load("churning"); }
 const RANGE: &str = "gears of the tests, quoted from memory";
 limits! {
+    after SWELL;
     RADIUS = ("R_p", "pitch radius", "mm", 40.0, 110.0, RANGE);
     MODULE = ("m_n", "normal module", "mm", 1.5, 5.0, RANGE);
     WIDTH = ("b", "face width", "mm", 14.0, 40.0, RANGE);
@@ -76,21 +76,19 @@ coefficients! {
     }
 }
 
-/// Churning of one gear by flow regimes.
-#[derive(Debug, Deserialize, JsonSchema)]
-pub struct Changenet {
-    /// Relative increase of the torque if the gear's lowest point moves towards its mate: 0 to 0.5. [-]
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 5.0))]
-    pub swell: f64,
-    #[serde(default)]
-    coefficients: Constants,
+churning! {
+    /// Churning of one gear by flow regimes.
+    #[derive(Debug, Deserialize, JsonSchema)]
+    pub struct Changenet {
+        #[serde(default)]
+        coefficients: Constants,
+    }
 }
 
 /// One gear in its oil.
 struct Churning {
     coefficients: Constants,
-    swell: f64,
+    rise: Rise,
     size: Size,
 }
 
@@ -116,7 +114,9 @@ fn prepare(params: Changenet, cx: &mut Build<'_>) -> Result<Churning, Diagnostic
             .error("changenet_2011 requires the oil volume")
             .help("add `housing: { oil: { volume: 1.2 l } }` with your value, or `housing.inside`, from which the volume below the level follows"));
     };
-    Ok(Churning::new(params.coefficients, params.swell, &part.gear, volume))
+    let rise = params.rise(cx)?;
+    let part = cx.own_part::<GearDrag>()?;
+    Ok(Churning::new(params.coefficients, rise, &part.gear, volume))
 }
 
 /// Dimensionless torque from the size of the gear, Reynolds number, speed parameter, Froude number and h/D.
@@ -155,12 +155,12 @@ fn c_m(c: &Constants, size: &Size, re: f64, gamma: f64, fr: f64, h: f64) -> f64 
 
 impl Churning {
     /// For a gear in a volume of oil. \[m3\]
-    fn new(coefficients: Constants, swell: f64, gear: &GearBody, volume: f64) -> Self {
+    fn new(coefficients: Constants, rise: Rise, gear: &GearBody, volume: f64) -> Self {
         let diameter = gear.reference_diameter;
         let size = Size::new(&coefficients, volume / diameter.powi(3), gear.facewidth / diameter);
         Self {
             coefficients,
-            swell,
+            rise,
             size,
         }
     }
@@ -176,6 +176,13 @@ impl GearDragModel for Churning {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        self.rise.applied(at, |at| self.alone(at))
+    }
+}
+
+impl Churning {
+    /// The law without swell.
+    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let Some(dipping) = Dipping::of(at) else {
             return Ok(Loss::MOMENTS);
         };
@@ -211,13 +218,7 @@ impl GearDragModel for Churning {
         });
         let c_m = at.observe(&C_M, c_m(&self.coefficients, &self.size, re, gamma, fr, dip / diameter));
         let torque = dipping.torque(at.rho, c_m);
-        let swell = if at.towards_mesh > 0.0 && self.swell > 0.0 {
-            at.branch("the lowest point moves towards the mate: swell applies");
-            1.0 + self.swell
-        } else {
-            1.0
-        };
-        Ok(Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque * swell)))
+        Ok(Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque)))
     }
 }
 
@@ -226,7 +227,7 @@ register!(GearDrag, "changenet_2011", Changenet,
     example: "{ type: changenet_2011 }",
     evidence: [
         formula(Evidence::OneSource, "one public transcription; both branches meet at Re 4000, which confirms it"),
-        default_of("swell", Evidence::Assumed, "no public formula"),
+        default_of("swell", Evidence::Assumed, "no public formula; `swell_max` is derived"),
     ],
     checks: [
         Check {
@@ -238,7 +239,7 @@ register!(GearDrag, "changenet_2011", Changenet,
             ..SIX_DIGITS
         },
     ],
-    limits: [RADIUS, MODULE, WIDTH, SPEED, CONE], terms: [TERM], observed: [C_M, REYNOLDS], prepare: prepare);
+    limits: [SWELL, RADIUS, MODULE, WIDTH, SPEED, CONE], terms: [TERM], observed: [C_M, REYNOLDS], prepare: prepare);
 
 #[cfg(test)]
 mod tests {
@@ -302,7 +303,7 @@ mod tests {
             to.rho = 842.0;
             to.towards_mesh = 0.0;
         });
-        let model = Churning::new(Constants::PUBLISHED, 0.3, &part.gear, 1.3e-3);
+        let model = Churning::new(Constants::PUBLISHED, Rise::swelling(0.3), &part.gear, 1.3e-3);
         let moment = model.loss(&at).unwrap().total_moment(speed);
         let swollen = model
             .loss(&at.with(|to| to.towards_mesh = 1.0))
@@ -317,7 +318,7 @@ mod tests {
     #[test]
     fn deeper_than_covered_changes_nothing() {
         let part = wheel();
-        let model = Churning::new(Constants::PUBLISHED, 0.0, &part.gear, 1.3e-3);
+        let model = Churning::new(Constants::PUBLISHED, Rise::NONE, &part.gear, 1.3e-3);
         let at = |dip| {
             GearDragAt::usual(&part, Notes::MUTED).with(|to| {
                 to.speed = 150.0;

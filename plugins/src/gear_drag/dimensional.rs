@@ -9,25 +9,29 @@ use gearloss_framework::formula::Formula;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Build, Evidence, formula};
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::dipping::Dipping;
+use super::rise::{Rise, SWELL, churning};
 use super::{CHURNING, GRAVITY};
 
 terms! { TERM = no_load("churning"); }
 observed! { C_M = ("C_m", "-", "dimensionless churning torque"); }
 
-/// Churning of one gear with a user-defined dimensionless torque.
-#[derive(Debug, Deserialize, JsonSchema)]
-pub struct Params {
-    /// Formula of the dimensionless torque in `re`, `fr`, `h`, `v`, `b`, such as `0.1 * fr^-0.6 * h^0.5`.
-    pub c_m: String,
+churning! {
+    /// Churning of one gear with a user-defined dimensionless torque.
+    #[derive(Debug, Deserialize, JsonSchema)]
+    pub struct Params {
+        /// Formula of the dimensionless torque in `re`, `fr`, `h`, `v`, `b`, such as `0.1 * fr^-0.6 * h^0.5`.
+        pub c_m: String,
+    }
 }
 
 struct Dimensional {
+    rise: Rise,
     c_m: Formula,
     volume: Option<f64>,
 }
@@ -54,7 +58,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Dimensional, Diagnostic
             )),
         }
     })?;
-    Ok(Dimensional { c_m, volume })
+    let rise = params.rise(cx)?;
+    Ok(Dimensional { rise, c_m, volume })
 }
 
 impl GearDragModel for Dimensional {
@@ -63,6 +68,13 @@ impl GearDragModel for Dimensional {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        self.rise.applied(at, |at| self.alone(at))
+    }
+}
+
+impl Dimensional {
+    /// The law without swell.
+    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let Some(gear) = Dipping::of(at) else {
             return Ok(Loss::MOMENTS);
         };
@@ -90,8 +102,11 @@ impl GearDragModel for Dimensional {
 register!(GearDrag, "dimensional", Params,
     source: "user-defined; the form of Changenet, Boness and others",
     example: "{ type: dimensional, c_m: \"0.1 * fr^-0.6 * h^0.5\" }",
-    evidence: [formula(Evidence::User, "the user states it")],
-    terms: [TERM], observed: [C_M], prepare: prepare);
+    evidence: [
+        formula(Evidence::User, "the user states it"),
+        default_of("swell", Evidence::Assumed, "no public formula; `swell_max` is derived"),
+    ],
+    limits: [SWELL], terms: [TERM], observed: [C_M], prepare: prepare);
 
 #[cfg(test)]
 mod tests {

@@ -9,15 +9,17 @@
 //! viscosity and the cube of speed: far below other laws for a thin oil, far above for a thick one at high speed. For industrial
 //! units; R_f is limited to zero for transverse modules below 0.586 mm.
 
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Check, Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
+use super::rise::{Rise, SWELL, churning};
 use crate::checks::SIX_DIGITS;
 use crate::powers::power;
 
@@ -46,15 +48,31 @@ coefficients! {
     }
 }
 
-/// Windage and churning of one gear according to ISO/TR 14179-1, of AGMA origin.
-#[derive(Debug, Deserialize, JsonSchema)]
-pub struct Iso14179 {
-    /// Arrangement constant. [-]
-    #[serde(default = "a_g")]
-    #[schemars(range(min = 0.01, max = 10.0))]
-    pub a_g: f64,
-    #[serde(default)]
+churning! {
+    /// Windage and churning of one gear according to ISO/TR 14179-1, of AGMA origin.
+    #[derive(Debug, Deserialize, JsonSchema)]
+    pub struct Params {
+        /// Arrangement constant. [-]
+        #[serde(default = "a_g")]
+        #[schemars(range(min = 0.01, max = 10.0))]
+        pub a_g: f64,
+        #[serde(default)]
+        coefficients: Constants,
+    }
+}
+
+struct Iso14179 {
     coefficients: Constants,
+    a_g: f64,
+    rise: Rise,
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Iso14179, Diagnostic> {
+    Ok(Iso14179 {
+        rise: params.rise(cx)?,
+        coefficients: params.coefficients,
+        a_g: params.a_g,
+    })
 }
 
 fn a_g() -> f64 {
@@ -88,6 +106,13 @@ impl GearDragModel for Iso14179 {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        self.rise.applied(at, |at| self.alone(at))
+    }
+}
+
+impl Iso14179 {
+    /// The law without swell.
+    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let gear = &at.part.gear;
         let f_g = at.show("f_g", "-", (at.tip_dip / gear.tip_diameter).clamp(0.0, 1.0));
         let (nu, n, d) = (at.nu.mm2_s(), at.speed.abs().rpm(), gear.tip_diameter.mm());
@@ -100,12 +125,13 @@ impl GearDragModel for Iso14179 {
     }
 }
 
-register!(GearDrag, "iso14179_1", Iso14179,
+register!(GearDrag, "iso14179_1", Params,
     source: "ISO/TR 14179-1:2001",
     example: "{ type: iso14179_1 }",
     evidence: [
         formula(Evidence::Recalled, "constants quoted from memory"),
         default_of("a_g", Evidence::Recalled, "quoted from memory, not checked"),
+        default_of("swell", Evidence::Assumed, "no public formula; `swell_max` is derived"),
     ],
     checks: [
         Check {
@@ -116,4 +142,4 @@ register!(GearDrag, "iso14179_1", Iso14179,
             ..SIX_DIGITS
         },
     ],
-    terms: [SIDES, TEETH]);
+    limits: [SWELL], terms: [SIDES, TEETH], prepare: prepare);

@@ -11,16 +11,18 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel, Scope};
-use gearloss_framework::registry::{Build, Check, Evidence, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::rise::{Rise, SWELL, churning};
 use crate::checks::SIX_DIGITS;
 use crate::powers::power;
 
 terms! { SPLASH = no_load("splash"); }
 limits! {
+    after SWELL;
     PITCH_SPEED = ("v_t", "pitch line velocity", "m/s", 0.0, 60.0, "ISO/TR 14179-2");
     WIDTH = ("b", "face width", "mm", 0.0, 100.0, "above, the b^3 term is unrealistically large");
 }
@@ -54,17 +56,20 @@ coefficients! {
     }
 }
 
-/// Splash torque of an immersed gear stage according to ISO/TR 14179-2.
-#[derive(Debug, Deserialize, JsonSchema)]
-pub struct Iso14179 {
-    /// Gear whose speed multiplies the splash torque. Sources differ, and the loss differs by the gear ratio.
-    pub speed_of: SpeedOf,
-    #[serde(default)]
-    coefficients: Constants,
+churning! {
+    /// Splash torque of an immersed gear stage according to ISO/TR 14179-2.
+    #[derive(Debug, Deserialize, JsonSchema)]
+    pub struct Iso14179 {
+        /// Gear whose speed multiplies the splash torque. Sources differ, and the loss differs by the gear ratio.
+        pub speed_of: SpeedOf,
+        #[serde(default)]
+        coefficients: Constants,
+    }
 }
 
 /// With the housing prepared.
 struct Splash {
+    rise: Rise,
     coefficients: Constants,
     /// Characteristic length of the gear case. \[mm\]
     l_h: f64,
@@ -85,9 +90,11 @@ fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Splash, Diagnostic> {
             .help("add `housing: { section: { area: 420 cm2, perimeter: 85 cm } }` with your values"));
     };
     let pinion_first = part.gear.z <= mate.z;
+    let (l_h, rise) = ((4.0 * area / perimeter).mm(), params.rise(cx)?);
     Ok(Splash {
+        rise,
         coefficients: params.coefficients,
-        l_h: (4.0 * area / perimeter).mm(),
+        l_h,
         first: (params.speed_of == SpeedOf::Pinion) == pinion_first,
     })
 }
@@ -112,6 +119,13 @@ impl GearDragModel for Splash {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        self.rise.applied(at, |at| self.alone(at))
+    }
+}
+
+impl Splash {
+    /// The law without swell.
+    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let part = at.part;
         let (h_1, h_2) = (at.tip_dip.mm(), at.tip_dip_2.mm());
         let share = f64::from(u8::from(self.first));
@@ -150,7 +164,10 @@ impl GearDragModel for Splash {
 register!(GearDrag, "iso14179_2", Iso14179,
     source: "ISO/TR 14179-2:2001",
     example: "{ type: iso14179_2, speed_of: wheel }",
-    evidence: [formula(Evidence::Disputed, "form published, constants quoted from memory; sources differ on the shaft")],
+    evidence: [
+        formula(Evidence::Disputed, "form published, constants quoted from memory; sources differ on the shaft"),
+        default_of("swell", Evidence::Assumed, "no public formula; `swell_max` is derived"),
+    ],
     checks: [
         Check {
             input: "{ model: { type: iso14179_2, speed_of: pinion }, part: { gear: { z: 31, normal_module: 1.6 mm, \
@@ -175,7 +192,7 @@ register!(GearDrag, "iso14179_2", Iso14179,
             ..SIX_DIGITS
         },
     ],
-    limits: [PITCH_SPEED, WIDTH], terms: [SPLASH], observed: [TORQUE], scope: Scope::Mesh, prepare: prepare);
+    limits: [SWELL, PITCH_SPEED, WIDTH], terms: [SPLASH], observed: [TORQUE], scope: Scope::Mesh, prepare: prepare);
 
 #[cfg(test)]
 mod tests {
@@ -231,6 +248,7 @@ mod tests {
         // A section of 0.01 m2 with a perimeter of 0.2 m has l_h = 200 mm.
         let l_h = (4.0 * 0.01_f64 / 0.2).mm();
         let pinion = Splash {
+            rise: Rise::NONE,
             coefficients: Constants::PUBLISHED,
             l_h,
             first: true,
@@ -238,6 +256,7 @@ mod tests {
         .loss(&at)
         .unwrap();
         let wheel = Splash {
+            rise: Rise::NONE,
             coefficients: Constants::PUBLISHED,
             l_h,
             first: false,
@@ -253,6 +272,7 @@ mod tests {
     fn dry_gears_and_gears_at_rest_lose_nothing() {
         let part = pair();
         let splash = Splash {
+            rise: Rise::NONE,
             coefficients: Constants::PUBLISHED,
             l_h: 200.0,
             first: true,

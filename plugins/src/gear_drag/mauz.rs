@@ -8,19 +8,22 @@
 //! the wetted surface of faces and rim at the tip circle, with the level at rest (assumed: the thesis was not readable). For
 //! modules of 3 to 6 mm.
 
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Evidence, default_of, formula};
+use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, limits, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
+use super::rise::{Rise, SWELL, churning, default_one};
 use super::wetted::Wetted;
 
 terms! { TERM = no_load("churning"); }
 limits! {
+    after SWELL;
     MODULE = ("m_n", "normal module", "mm", 3.0, 6.0, "Mauz as quoted");
     SPEED = ("v_t", "pitch line velocity", "m/s", 0.0, 60.0, "Mauz as quoted");
 }
@@ -39,34 +42,53 @@ coefficients! {
     }
 }
 
-/// Splash torque of one gear according to Mauz, with a reconstructed scale.
-#[derive(Debug, Deserialize, JsonSchema)]
-pub struct Mauz {
-    /// Scale, reconstructed. [-]
-    #[serde(default = "k_0")]
-    #[schemars(range(min = 1.0, max = 1e5))]
-    pub k_0: f64,
-    /// Factor for the distance to the wall at the circumference. [-]
-    #[serde(default = "default_one")]
-    #[schemars(range(min = 0.0, max = 10.0))]
-    pub c_wz: f64,
-    /// Factor for the distance to the wall at the faces. [-]
-    #[serde(default = "default_one")]
-    #[schemars(range(min = 0.0, max = 10.0))]
-    pub c_wa: f64,
-    /// Factor for the oil volume. [-]
-    #[serde(default = "default_one")]
-    #[schemars(range(min = 0.0, max = 10.0))]
-    pub c_v: f64,
-    #[serde(default)]
-    coefficients: Constants,
+churning! {
+    /// Splash torque of one gear according to Mauz, with a reconstructed scale.
+    #[derive(Debug, Deserialize, JsonSchema)]
+    pub struct Params {
+        /// Scale, reconstructed. [-]
+        #[serde(default = "k_0")]
+        #[schemars(range(min = 1.0, max = 1e5))]
+        pub k_0: f64,
+        /// Factor for the distance to the wall at the circumference. [-]
+        #[serde(default = "default_one")]
+        #[schemars(range(min = 0.0, max = 10.0))]
+        pub c_wz: f64,
+        /// Factor for the distance to the wall at the faces. [-]
+        #[serde(default = "default_one")]
+        #[schemars(range(min = 0.0, max = 10.0))]
+        pub c_wa: f64,
+        /// Factor for the oil volume. [-]
+        #[serde(default = "default_one")]
+        #[schemars(range(min = 0.0, max = 10.0))]
+        pub c_v: f64,
+        #[serde(default)]
+        coefficients: Constants,
+    }
 }
 
 fn k_0() -> f64 {
     1.86e3
 }
-fn default_one() -> f64 {
-    1.0
+
+struct Mauz {
+    coefficients: Constants,
+    k_0: f64,
+    c_wz: f64,
+    c_wa: f64,
+    c_v: f64,
+    rise: Rise,
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Mauz, Diagnostic> {
+    Ok(Mauz {
+        rise: params.rise(cx)?,
+        coefficients: params.coefficients,
+        k_0: params.k_0,
+        c_wz: params.c_wz,
+        c_wa: params.c_wa,
+        c_v: params.c_v,
+    })
 }
 
 impl Mauz {
@@ -93,6 +115,13 @@ impl GearDragModel for Mauz {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        self.rise.applied(at, |at| self.alone(at))
+    }
+}
+
+impl Mauz {
+    /// The law without swell.
+    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let gear = &at.part.gear;
         if at.tip_dip <= 0.0 || at.speed == 0.0 {
             at.branch("dry or at standstill: no churning");
@@ -110,7 +139,7 @@ impl GearDragModel for Mauz {
     }
 }
 
-register!(GearDrag, "mauz", Mauz,
+register!(GearDrag, "mauz", Params,
     source: "Mauz 1987, as quoted by Shen and Rinderknecht",
     example: "{ type: mauz }",
     evidence: [
@@ -119,8 +148,9 @@ register!(GearDrag, "mauz", Mauz,
         default_of("c_wz", Evidence::Assumed, "the function is not public"),
         default_of("c_wa", Evidence::Assumed, "the function is not public"),
         default_of("c_v", Evidence::Assumed, "the function is not public"),
+        default_of("swell", Evidence::Assumed, "no public formula; `swell_max` is derived"),
     ],
-    limits: [MODULE, SPEED], terms: [TERM]);
+    limits: [SWELL, MODULE, SPEED], terms: [TERM], prepare: prepare);
 
 #[cfg(test)]
 mod tests {
@@ -134,6 +164,7 @@ mod tests {
             c_wz: 1.0,
             c_wa: 1.0,
             c_v,
+            rise: Rise::NONE,
         };
         for (value, printed) in [
             (law(1.0).torque(5.4e-3, 10.0, 0.0131, 0.090, 1.6e-3, 1.0), 0.227885),
@@ -151,6 +182,7 @@ mod tests {
             c_wz: 1.5,
             c_wa: 2.0,
             c_v: 1.0,
+            rise: Rise::NONE,
         };
         assert_eq!(law.walls(5.0, 0.09, Some(0.01), Some(0.01)), 1.0);
         assert_eq!(law.walls(20.0, 0.09, Some(0.01), Some(0.2)), 1.5);

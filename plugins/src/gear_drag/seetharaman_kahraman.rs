@@ -7,15 +7,17 @@
 //! model is incomplete; with the level at rest (quoted from memory), at high speed it overpredicts measurements by far, because oil
 //! is thrown off. For research.
 
+use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_drag::{Covers, GearDrag, GearDragAt, GearDragModel};
-use gearloss_framework::registry::{Check, Evidence, formula};
+use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use gearloss_framework::{coefficients, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
+use super::rise::{Rise, SWELL, churning};
 use crate::checks::SIX_DIGITS;
 use crate::powers::power;
 
@@ -40,11 +42,25 @@ coefficients! {
     }
 }
 
-/// Rim and faces of one immersed gear according to Seetharaman and Kahraman; incomplete.
-#[derive(Debug, Deserialize, JsonSchema)]
-pub struct SeetharamanKahraman {
-    #[serde(default)]
+churning! {
+    /// Rim and faces of one immersed gear according to Seetharaman and Kahraman; incomplete.
+    #[derive(Debug, Deserialize, JsonSchema)]
+    pub struct Params {
+        #[serde(default)]
+        coefficients: Constants,
+    }
+}
+
+struct SeetharamanKahraman {
     coefficients: Constants,
+    rise: Rise,
+}
+
+fn prepare(params: Params, cx: &mut Build<'_>) -> Result<SeetharamanKahraman, Diagnostic> {
+    Ok(SeetharamanKahraman {
+        rise: params.rise(cx)?,
+        coefficients: params.coefficients,
+    })
 }
 
 /// Half of the immersed angle. \[rad\]
@@ -79,6 +95,13 @@ impl GearDragModel for SeetharamanKahraman {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        self.rise.applied(at, |at| self.alone(at))
+    }
+}
+
+impl SeetharamanKahraman {
+    /// The law without swell.
+    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let gear = &at.part.gear;
         let (r, omega) = (0.5 * gear.tip_diameter, at.speed.abs());
         let depth = at.show("h/r_o", "-", at.tip_dip / r);
@@ -103,10 +126,13 @@ impl GearDragModel for SeetharamanKahraman {
     }
 }
 
-register!(GearDrag, "seetharaman_kahraman", SeetharamanKahraman,
+register!(GearDrag, "seetharaman_kahraman", Params,
     source: "Seetharaman, Kahraman, J. Tribol. 131 (2009)",
     example: "{ type: seetharaman_kahraman }",
-    evidence: [formula(Evidence::Recalled, "two of four terms quoted from memory, not checked; the laminar constant is derived")],
+    evidence: [
+        formula(Evidence::Recalled, "two of four terms quoted from memory, not checked; the laminar constant is derived"),
+        default_of("swell", Evidence::Assumed, "no public formula; `swell_max` is derived"),
+    ],
     checks: [
         Check {
             input: "{ part: { gear: { z: 38, normal_module: 4 mm, pressure_angle: 20 deg, facewidth: 20 mm, reference_diameter: 152 mm, \
@@ -132,7 +158,7 @@ register!(GearDrag, "seetharaman_kahraman", SeetharamanKahraman,
             ..SIX_DIGITS
         },
     ],
-    terms: [RIM, FACES]);
+    limits: [SWELL], terms: [RIM, FACES], prepare: prepare);
 
 #[cfg(test)]
 mod tests {

@@ -7,6 +7,7 @@
 //! exact. Immersion depth at the reference circle, at rest: h_0 is printed as the initial depth, and h_eff contains how the level
 //! falls. Single gear; the source does not state whether d_x is the gap of one side or both; one side is assumed.
 
+use gearloss_framework::codes;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::ShopUnits;
@@ -17,10 +18,14 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::CHURNING;
+use super::rise::{Rise, SWELL, churning};
 use crate::checks::SIX_DIGITS;
 
 terms! { TERM = no_load("churning"); }
-limits! { SPEED = ("v", "pitch line velocity", "m/s", 0.0, 90.0, "pitch line velocities of the rig"); }
+limits! {
+    after SWELL;
+    SPEED = ("v", "pitch line velocity", "m/s", 0.0, 90.0, "pitch line velocities of the rig");
+}
 observed! { H_EFF = ("h_eff", "mm", "effective immersion depth while the gear rotates"); }
 
 /// The source rounds gravity. \[m/s2\]
@@ -56,45 +61,53 @@ coefficients! {
     }
 }
 
-/// Churning of one gear in a cylindrical case, from inertia run-down tests up to 90 m/s.
-#[derive(Debug, Deserialize, JsonSchema)]
-pub struct Params {
-    /// Share of the case filled with oil at standstill; default: that of the oil space of the housing. [-]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub fill: Option<f64>,
-    /// Relative increase of the torque if the gear's lowest point moves towards its mate: 0 to 0.5. [-]
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 5.0))]
-    pub swell: f64,
-    #[serde(default)]
-    coefficients: Constants,
+churning! {
+    /// Churning of one gear in a cylindrical case, from inertia run-down tests up to 90 m/s.
+    #[derive(Debug, Deserialize, JsonSchema)]
+    pub struct Params {
+        /// Share of the case filled with oil at standstill; default: that of the oil space of the housing. [-]
+        #[schemars(range(min = 0.0, max = 1.0))]
+        pub fill: Option<f64>,
+        #[serde(default)]
+        coefficients: Constants,
+    }
 }
 
 #[derive(Debug)]
 struct Shore {
     coefficients: Constants,
     fill: f64,
-    swell: f64,
+    rise: Rise,
     radial: f64,
     axial: f64,
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Shore, Diagnostic> {
     let part = cx.own_part::<GearDrag>()?;
+    let part_fill = part.fill;
     let (Some(radial), Some(axial)) = (part.radial_clearance, part.axial_clearance) else {
         return Err(cx
             .error("shore requires the gaps between gear and wall")
             .help("add `housing: { clearance: { radial: 8 mm, axial: 12 mm } }` with your values"));
     };
-    let Some(fill) = params.fill.or(part.fill) else {
+    let Some(fill) = params.fill.or(part_fill) else {
         return Err(cx
             .error("shore requires the filled share of the case")
             .help("add `fill: 0.3` with your value, or an oil level with `housing.inside`"));
     };
+    let rise = params.rise(cx)?;
+    let drawn = part_fill.filter(|drawn| cx.has_drawn_space() && (fill - drawn).abs() > 0.1 * drawn);
+    if let (Some(drawn), Some(stated)) = (drawn, params.fill) {
+        let message = format!(
+            "{stated} is stated, and the oil at rest fills {drawn:.3} of the oil space in `housing.inside`; the stated one is used"
+        );
+        let doubt = Diagnostic::warning("", message).code(codes::STATED_OVER_DRAWING);
+        cx.doubt("fill", doubt.help("remove `fill`, or correct the outline or the level"));
+    }
     Ok(Shore {
+        rise,
         coefficients: params.coefficients,
         fill,
-        swell: params.swell,
         radial,
         axial,
     })
@@ -124,6 +137,13 @@ impl GearDragModel for Shore {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+        self.rise.applied(at, |at| self.alone(at))
+    }
+}
+
+impl Shore {
+    /// The law without swell.
+    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
         let gear = &at.part.gear;
         let omega = at.speed.abs();
         if at.dip <= 0.0 || omega == 0.0 {
@@ -135,8 +155,7 @@ impl GearDragModel for Shore {
         let h_0 = at.dip.min(gear.reference_diameter);
         let (h_eff, torque) = self.torque(r_a, r_p, gear.facewidth, h_0, at.nu, at.rho, omega);
         at.observe(&H_EFF, h_eff.mm());
-        let swell = if at.towards_mesh > 0.0 { self.swell } else { 0.0 };
-        Ok(Loss::MOMENTS.with(&TERM, at.show("C_ch", "Nm", torque * (1.0 + swell))))
+        Ok(Loss::MOMENTS.with(&TERM, at.show("C_ch", "Nm", torque)))
     }
 }
 
@@ -161,7 +180,7 @@ register!(GearDrag, "shore", Params,
     evidence: [
         formula(Evidence::OneSource, "one article; dimensionally exact"),
         default_of("fill", Evidence::Assumed, "a spacious housing; the source has a cylinder around one gear"),
-        default_of("swell", Evidence::Assumed, "no public formula"),
+        default_of("swell", Evidence::Assumed, "no public formula; `swell_max` is derived"),
     ],
     checks: [
         Check {
@@ -201,4 +220,4 @@ register!(GearDrag, "shore", Params,
             ..SIX_DIGITS
         },
     ],
-    limits: [SPEED], terms: [TERM], observed: [H_EFF], prepare: prepare);
+    limits: [SWELL, SPEED], terms: [TERM], observed: [H_EFF], prepare: prepare);

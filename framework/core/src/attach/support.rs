@@ -44,9 +44,9 @@ pub struct SupportPlace {
     /// The bearing takes the tilting moment of a shaft that it supports alone.
     #[serde(default)]
     pub takes_moment: bool,
-    /// Radial stiffness; default: rigid. Used if more than two bearings support the shaft. [N/mm]
-    #[schemars(range(min = 1.0, max = 1e9))]
-    pub radial_stiffness: Option<f64>,
+    /// Radial stiffness; default: rigid. Used if more than two bearings support the shaft: a number, or a load at which it follows from the
+    /// rolling elements.
+    pub radial_stiffness: Option<RadialStiffness>,
     /// Tilting stiffness; default: none. Used if more than two bearings support the shaft. [Nm/rad]
     #[schemars(range(min = 1.0, max = 1e9))]
     pub tilting_stiffness: Option<f64>,
@@ -111,6 +111,25 @@ impl Default for Factor {
     fn default() -> Self {
         Self::Constant(1.0)
     }
+}
+
+/// Radial stiffness of a bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum RadialStiffness {
+    /// One stiffness. [N/mm]
+    Constant(#[schemars(range(min = 1.0, max = 1e9))] f64),
+    /// From the load distribution of the rolling elements.
+    At(StiffnessLoad),
+}
+
+/// The load at which a bearing has its stiffness: the load over the displacement that it causes, with the clearance in operation and a ring
+/// that does not tilt. A bearing with a contact angle also has the axial load that loads half of its elements.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StiffnessLoad {
+    /// Radial load. [N]
+    #[schemars(range(min = 1.0, max = 1e8))]
+    pub at_load: f64,
 }
 
 /// Factors over the magnitude of a port's torque, linear in between, constant beyond the ends.

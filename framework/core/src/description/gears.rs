@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::housing::WallClearance;
 use super::shafts::Unsupported;
 use crate::mechanism::clutch::Clutch;
 use crate::mechanism::differential::{Differential, DifferentialGears};
@@ -58,6 +59,8 @@ pub struct GearEntry {
     /// Oil height above the gear's axis, if it runs in a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
+    /// Gap between this gear and a baffle, shroud or wall near it, for drag models that have one; default: that of the housing.
+    pub clearance: Option<WallClearance>,
     /// Oil; default: that of the housing.
     #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: Option<String>,

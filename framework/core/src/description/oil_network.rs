@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Ordered;
+use crate::hydraulics::Rib;
 
 /// A network of oil flows. Elements lead from `sump` or a junction to a junction, a chamber, `sump` or `housing`, the air of the housing.
 /// Pressures are those over the air of the housing.
@@ -269,15 +270,15 @@ pub struct PocketEntry {
 /// A rib on a wetted wall: it catches the film that runs down above it. Its flow is uncertain by a factor of three.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 pub struct CatchEntry {
-    /// Oil that gears fling on all walls. [l/min]
+    /// Oil that gears fling on all walls; default: what they lift as estimated from their churning losses. [l/min]
     #[schemars(range(min = 0.0, max = 1e4))]
-    pub wetting: f64,
+    pub wetting: Option<f64>,
     /// Length of the rib along the wall. [mm]
     #[schemars(range(min = 0.0, max = 1e5))]
     pub width: f64,
-    /// Horizontal length of all wetted walls. [mm]
+    /// Horizontal length of all wetted walls; default with estimated wetting: that of the oil space. [mm]
     #[schemars(range(min = 1.0, max = 1e6))]
-    pub walls: f64,
+    pub walls: Option<f64>,
     /// Height of wetted wall above the rib over that of all wetted wall. [-]
     #[serde(default = "half")]
     #[schemars(range(min = 0.0, max = 1.0))]
@@ -285,9 +286,13 @@ pub struct CatchEntry {
 }
 
 impl CatchEntry {
-    /// Flow into the pocket: the part of the evenly wetted wall whose film the rib catches. \[m3/s\]
-    pub fn flow(&self) -> f64 {
-        self.wetting * (self.width / self.walls).min(1.0) * self.above
+    /// The rib, of which a part of the evenly wetted wall is above.
+    pub fn rib(&self) -> Rib {
+        Rib {
+            width: self.width,
+            walls: self.walls,
+            above: self.above,
+        }
     }
 }
 
@@ -320,11 +325,13 @@ mod tests {
     #[test]
     fn a_rib_catches_its_part_of_the_wall() {
         let rib = CatchEntry {
-            wetting: 20.0,
+            wetting: Some(20.0),
             width: 50e-3,
-            walls: 400e-3,
+            walls: Some(400e-3),
             above: 0.5,
         };
-        assert_eq!(rib.flow(), 1.25);
+        assert_eq!(20.0 * rib.rib().share(1.0), 1.25);
+        let of_space = CatchEntry { walls: None, ..rib };
+        assert_eq!(20.0 * of_space.rib().share(800e-3), 0.625);
     }
 }

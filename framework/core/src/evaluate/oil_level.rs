@@ -2,6 +2,7 @@
 
 use super::Solution;
 use crate::attach::Oil;
+use crate::hydraulics::Inputs;
 use crate::real::Points as _;
 use crate::sump::{Band, CAPTURE};
 use crate::transmission::Surface;
@@ -42,6 +43,8 @@ pub struct LevelEstimate {
     pub lifted: f64,
     /// Oil on the walls and in the air, by the same. \[m3\]
     pub missing: f64,
+    /// Oil in chambers that drain into the sump. \[m3\]
+    pub held: f64,
     /// Greatest speed of a tip circle that dips into the oil at rest; `None` without gears with a churning law. \[m/s\]
     pub rim: Option<f64>,
     /// True if the oil space is that of the drawing; otherwise it is the hull of the gears.
@@ -59,16 +62,23 @@ impl Solution<'_> {
         let estimate = t.oils.sump.as_ref().map(|sump| {
             let mut lifted = m.lifted.clone();
             sump.lift(&t.drags, &m.drag_losses, &c.open(false).0, &mut lifted);
-            let running = sump.running(c.rest, &c.oils, &lifted);
+            let at = Inputs {
+                speeds: &c.speeds,
+                oils: &c.oils,
+                surface: c.surface,
+            };
+            let held = t.hydraulics.held(&c.hydraulics, &at);
+            let running = sump.running(c.rest, held, &c.oils, &lifted);
             let band = running.band();
             let nu = c.oils.get(sump.oil).map_or(0.0, |oil: &Oil| oil.nu);
             let [missing, flow] = running.missing(|i| lifted[i], band.films[1], nu, CAPTURE[1]);
             LevelEstimate {
                 rim: (!lifted.is_empty()).then(|| running.fastest_rim()),
                 band,
-                volume: running.stock,
+                volume: running.stock + held,
                 lifted: flow,
                 missing,
+                held,
                 drawn: sump.is_drawn(),
             }
         });

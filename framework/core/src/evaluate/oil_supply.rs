@@ -2,6 +2,7 @@
 
 use super::Solution;
 use crate::hydraulics::{Element, End, Inputs, Law};
+use crate::transmission::{PartInfo, PartKind};
 
 /// Pressure of the surroundings. \[Pa\]
 const ATMOSPHERE: f64 = 1.01325e5;
@@ -87,6 +88,8 @@ pub struct PocketLevel<'a> {
     pub height: f64,
     /// True if oil flows over its edge.
     pub overflows: bool,
+    /// Radius of the raceway. \[m\]
+    pub raceway: Option<f64>,
 }
 
 impl Solution<'_> {
@@ -152,19 +155,28 @@ impl Solution<'_> {
 
     /// The pockets of bearings at the point.
     pub fn pockets(&self) -> impl Iterator<Item = PocketLevel<'_>> {
-        let (network, work) = (
-            &self.transmission.hydraulics,
-            &self.scratch.models.conditions.hydraulics,
-        );
+        let (t, work) = (self.transmission, &self.scratch.models.conditions.hydraulics);
+        let network = &t.hydraulics;
+        let raceway = move |bearing: &str| {
+            let is_of = |part: &&PartInfo| {
+                let rest = part.path.strip_prefix(bearing);
+                rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            };
+            match t.parts.iter().find(is_of)?.kind {
+                PartKind::Component(component) => t.components[component].placed.lowest(),
+                PartKind::Mesh(_) | PartKind::Drag(_) => None,
+            }
+        };
         network
             .pockets
             .iter()
             .zip(&work.pockets)
-            .map(|(pocket, height)| PocketLevel {
+            .map(move |(pocket, height)| PocketLevel {
                 bearing: &pocket.path,
                 inflow: pocket.inflow(work),
                 height: *height,
                 overflows: *height > pocket.edge_height,
+                raceway: raceway(&pocket.path),
             })
     }
 

@@ -40,8 +40,28 @@ pub struct Pocket {
     pub feeds: Vec<(usize, f64)>,
     /// Flow from elsewhere, such as oil that a rib catches from the wall. \[m3/s\]
     pub inflow: f64,
+    /// Rib that catches a part of what gears lift, as estimated.
+    pub rib: Option<Rib>,
     /// Number of its oil.
     pub oil: u16,
+}
+
+/// A rib on a wall down which oil runs that gears have thrown there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rib {
+    /// Its length along the wall. \[m\]
+    pub width: f64,
+    /// Horizontal length of all wetted walls; that of the oil space without. \[m\]
+    pub walls: Option<f64>,
+    /// Height of wetted wall above the rib over that of all wetted wall.
+    pub above: f64,
+}
+
+impl Rib {
+    /// Part of the oil on the walls, of this horizontal length (m), that it catches.
+    pub fn share(&self, walls: f64) -> f64 {
+        (self.width / self.walls.unwrap_or(walls)).min(1.0) * self.above
+    }
 }
 
 impl Pocket {
@@ -49,7 +69,11 @@ impl Pocket {
     pub(crate) fn inflow<R: Points>(&self, work: &Work<R>) -> R {
         let fed = self.feeds.iter();
         let fed = fed.map(|(element, shared)| work.supplies[*element].flow / *shared);
-        fed.fold(R::constant(self.inflow), |sum, flow| sum + flow.max(R::ZERO))
+        let fed = fed.fold(R::constant(self.inflow), |sum, flow| sum + flow.max(R::ZERO));
+        match self.rib {
+            Some(rib) => fed + work.wetting * rib.share(work.walls),
+            None => fed,
+        }
     }
 
     /// Oil height over the lowest point of the raceway for a flow into the pocket. \[m3/s and m\]
@@ -115,6 +139,39 @@ impl Pocket {
 }
 
 impl Hydraulics {
+    /// True if a rib catches what gears lift.
+    pub(crate) fn catches(&self) -> bool {
+        self.pockets.iter().any(|pocket| pocket.rib.is_some())
+    }
+
+    /// Fills the pockets with what gears throw on walls of a horizontal length. \[m3/s, m\]
+    pub(crate) fn catch<R: Points>(&self, wetting: R, walls: f64, at: &Inputs<'_, R>, work: &mut Work<R>) {
+        (work.wetting, work.walls) = (wetting, walls);
+        self.fill_pockets(at, work);
+    }
+
+    /// Oil that stands in chambers. \[m3\]
+    pub(crate) fn held<R: Points>(&self, work: &Work<R>, at: &Inputs<'_, R>) -> R {
+        let mut held = R::ZERO;
+        for (number, chamber) in self.chambers.iter().enumerate() {
+            let flow = self.through(number, work);
+            let fluid = self.aerated(&at.oils[chamber.oil as usize]);
+            let head = chamber.drain.pressure(flow, fluid.eta, fluid.rho) / (fluid.rho * GRAVITY);
+            held += head * chamber.floor;
+        }
+        held
+    }
+
+    /// Flow through a chamber: into it, and into those that drain into it. \[m3/s\]
+    fn through<R: Points>(&self, chamber: usize, work: &Work<R>) -> R {
+        let own = self.elements.iter().zip(&work.supplies);
+        let own = own.filter(|(element, _)| element.chamber == Some(chamber));
+        let own = own.fold(R::ZERO, |sum, (_, supply)| sum + supply.flow.max(R::ZERO));
+        // Chambers precede those into which they drain.
+        let from = (0..chamber).filter(|other| self.chambers[*other].into == Some(chamber));
+        from.fold(own, |sum, other| sum + self.through(other, work))
+    }
+
     /// The oil height in all pockets.
     pub(super) fn fill_pockets<R: Points>(&self, at: &Inputs<'_, R>, work: &mut Work<R>) {
         for (i, pocket) in self.pockets.iter().enumerate() {
@@ -164,6 +221,7 @@ mod tests {
             }),
             feeds: Vec::new(),
             inflow: 0.0,
+            rib: None,
             oil: 0,
         };
         for (nu, heights) in [

@@ -34,6 +34,9 @@ pub(crate) struct Work<R> {
     pub supplies: Vec<Supply<R>>,
     /// Oil height in each pocket above the lowest point of the raceway. \[m\]
     pub pockets: Vec<R>,
+    /// Oil that gears throw on the walls, for ribs that catch it, and the horizontal length of the walls. \[m3/s and m\]
+    pub wetting: R,
+    pub walls: f64,
     /// Newton steps of the point that needed most.
     pub steps: usize,
     trial: Vec<R>,
@@ -58,6 +61,8 @@ impl<R: Points> Work<R> {
             pressures: vec![R::ZERO; nodes],
             supplies: vec![Supply::default(); elements],
             pockets: vec![R::ZERO; network.pockets.len()],
+            wetting: R::ZERO,
+            walls: 1.0,
             steps: 0,
             trial: vec![R::ZERO; nodes],
             excess: vec![R::ZERO; nodes],
@@ -85,6 +90,7 @@ impl Work<Lane> {
         for (own, common) in self.pockets.iter_mut().zip(&common.pockets) {
             *own = Lane::constant(*common);
         }
+        (self.wetting, self.walls) = (Lane::constant(common.wetting), common.walls);
     }
 }
 
@@ -95,6 +101,7 @@ impl Hydraulics {
             return;
         }
         work.pressures.fill(R::ZERO);
+        work.wetting = R::ZERO;
         self.solve_from_pressures(at, work);
         self.fill_pockets(at, work);
     }

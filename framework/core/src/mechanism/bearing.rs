@@ -682,6 +682,11 @@ impl Component for Bearing {
     fn angular_row(part: &BearingPart) -> Result<AngularRow, Cow<'static, str>> {
         part.angular_row()
     }
+
+    fn radial_stiffness(part: &BearingPart, load: f64) -> Result<f64, Cow<'static, str>> {
+        part.rolling_elements()?.radial_stiffness(load)
+    }
+
     fn lowest(part: &BearingPart) -> Option<f64> {
         let reads = part.oil_height.is_none() && part.lubrication != Lubrication::Grease;
         reads.then_some(part.raceway)

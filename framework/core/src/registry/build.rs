@@ -160,6 +160,8 @@ pub struct Instance {
     pub notes: NoteBase,
     /// Parameters that it does not use for its part, so that their defaults are no evidence of its result.
     pub unused: Vec<&'static str>,
+    /// What is doubtful about its parameters.
+    pub doubts: Vec<Diagnostic>,
 }
 
 /// Context of a model while it is built: the registry for nested slots, its part, its path, files. Collects findings.
@@ -176,6 +178,8 @@ pub struct Build<'a> {
     pub(crate) oil_elements: Option<Vec<String>>,
     /// The element that the model named which is being built.
     supply: Option<Arc<str>>,
+    /// True if the oil space of the housing is drawn.
+    pub(crate) drawn_space: bool,
     /// What the last build left, and what this one leaves.
     pub(crate) memory: Memory,
 }
@@ -209,6 +213,7 @@ impl<'a> Build<'a> {
             cells: 0,
             oil_elements: None,
             supply: None,
+            drawn_space: false,
             memory,
         }
     }
@@ -216,6 +221,19 @@ impl<'a> Build<'a> {
     /// An error at the path that is being built.
     pub fn error(&self, message: impl Into<String>) -> Diagnostic {
         Diagnostic::error(self.path.clone(), message).code(codes::MODEL)
+    }
+
+    /// Adds a warning at a parameter of the model that is being built.
+    pub fn doubt(&mut self, key: &str, warning: Diagnostic) {
+        let path = format!("{}.{key}", self.path);
+        if let Some(instance) = self.instances.iter_mut().rfind(|instance| instance.path == self.path) {
+            instance.doubts.push(Diagnostic { path, ..warning });
+        }
+    }
+
+    /// True if the oil space of the housing is that of a drawing.
+    pub fn has_drawn_space(&self) -> bool {
+        self.drawn_space
     }
 
     /// The path that is being built.
@@ -449,6 +467,7 @@ impl<'a> Build<'a> {
             entry,
             notes,
             unused: Vec::new(),
+            doubts: Vec::new(),
         });
         let built = (entry.build)(value, self);
         self.around = outer;
@@ -486,6 +505,7 @@ impl<'a> Build<'a> {
             entry: *entry,
             notes,
             unused: Vec::new(),
+            doubts: Vec::new(),
         });
         let built = (entry.build)(value, self);
         self.part = None;

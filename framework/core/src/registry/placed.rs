@@ -70,8 +70,19 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     fn angular_row(&self) -> Result<AngularRow, Cow<'static, str>> {
         Err("it carries no load".into())
     }
+    /// Its radial stiffness under a radial load. \[N and N/m\]
+    ///
+    /// # Errors
+    /// Why this is not known.
+    fn radial_stiffness(&self, _load: f64) -> Result<f64, Cow<'static, str>> {
+        Err("it carries no load".into())
+    }
     /// Number of its oil, if it has one only.
     fn oil(&self) -> Option<u16> {
+        None
+    }
+    /// Radius of its lowest point over which an oil height matters; `None` if none does. \[m\]
+    fn lowest(&self) -> Option<f64> {
         None
     }
     /// True if its loss may depend on the oil height at its place while rotating, which is at most a height above the datum. \[m\]
@@ -174,8 +185,14 @@ impl<C: Component> Placed for PlacedAs<C> {
     fn angular_row(&self) -> Result<AngularRow, Cow<'static, str>> {
         C::angular_row(&self.part)
     }
+    fn radial_stiffness(&self, load: f64) -> Result<f64, Cow<'static, str>> {
+        C::radial_stiffness(&self.part, load)
+    }
     fn oil(&self) -> Option<u16> {
         Some(self.spot.oil)
+    }
+    fn lowest(&self) -> Option<f64> {
+        C::lowest(&self.part)
     }
     fn reads_level(&self, highest: f64) -> bool {
         let (Level::Sump { height, slope, orbit }, Some(lowest)) = (self.spot.level, C::lowest(&self.part)) else {

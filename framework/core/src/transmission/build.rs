@@ -20,7 +20,9 @@ use super::{
     Component, DragModel, MeshLaw, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Sump, Transmission,
     WHEEL_SPEEDS, WHEELS,
 };
-use crate::attach::{Common, Level, Names, Places, Seated, SeatedClearance, SeatedPocket, SeatedSupport, dangling};
+use crate::attach::{
+    Common, Level, Names, Places, RadialStiffness, Seated, SeatedClearance, SeatedPocket, SeatedSupport, dangling,
+};
 use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
 use crate::document::{Diagnostic, classify};
@@ -70,7 +72,13 @@ impl Transmission {
         let mut warnings = Vec::new();
         let frame = Frame::new(language, resolved, &mut memory, &mut found, &mut warnings)?;
         let (entry, members, ports) = (&frame.entry, &frame.members, &frame.ports);
-        let mut oils = OilNumbers::new(entry, members, (&frame.gears, &frame.meshes), &frame.nodes, &mut memory);
+        let mut oils = OilNumbers::new(
+            (entry, &resolved.value),
+            members,
+            (&frame.gears, &frame.meshes),
+            &frame.nodes,
+            &mut memory,
+        );
         let mut build = Build::again(language.registry(), files, memory);
         build.oil_elements = Some(element_paths(entry));
         let models = Models::new(
@@ -125,6 +133,7 @@ impl Transmission {
             return Err(found);
         };
         let (instances, cells) = build.finish();
+        warnings.extend(instances.iter().flat_map(|instance| instance.doubts.iter().cloned()));
         let rated: Vec<RatedSupport> = models.components.iter().filter_map(rated).collect();
         let parts = in_document_order(resolved, models.parts);
         if let Some(network) = &mut network {
@@ -134,6 +143,7 @@ impl Transmission {
         let built = Self {
             title: entry.title.clone().unwrap_or_default(),
             supports: supports.iter().map(|s| s.path.clone()).collect(),
+            stiffnesses: stiffnesses(supports, &designs),
             locked_below: entry.locked_below,
             oil_temperature: entry.thermal.oil,
             thermal_mode: entry.thermal.mode,
@@ -348,7 +358,13 @@ impl Models {
         let has_preload = self.supports.iter().any(|support| support.place.preload.is_some());
         for placed in self.components.iter().map(|component| &component.placed) {
             if let Some(support) = placed.support() {
+                let stated = self.supports[usize::from(support)].place.radial_stiffness;
+                let load = stated.and_then(|stiffness| match stiffness {
+                    RadialStiffness::Constant(_) => None,
+                    RadialStiffness::At(load) => Some(load.at_load),
+                });
                 designs[usize::from(support)] = Design {
+                    stiffness: load.map(|load| placed.radial_stiffness(load).map_err(Cow::into_owned)),
                     name: placed.name(),
                     carries: placed.carries(),
                     induced: placed.induced(),
@@ -432,6 +448,7 @@ impl Models {
         for (id, oil) in oils.named() {
             warnings.extend(plausible::viscosities(id, oil, &entry.plausibility));
         }
+        build.drawn_space = oils.inside.as_ref().is_some_and(|inside| inside.drawn);
         let drags = Drags {
             registry: language.registry(),
             entry,
@@ -454,6 +471,10 @@ impl Models {
             .any(|component| component.placed.reads_level(highest));
         let mut pipes = entry.oil_network.iter().flat_map(|network| network.pipes.iter());
         let reads = reads || pipes.any(|(_, pipe)| pipe.inlet_height.is_some());
+        let catches = models
+            .pockets
+            .iter()
+            .any(|pocket| pocket.entry.rib.is_some_and(|rib| rib.wetting.is_none()));
         if let (Some(inside), Some(rest)) = (oils.inside.clone(), oils.rest())
             && let Some(oil) = oils.oil("housing.oil", &Common::default())
         {
@@ -461,10 +482,13 @@ impl Models {
                 &inside,
                 rest,
                 oil.into(),
-                reads,
+                reads || catches,
                 (gears, &levels),
                 &models.drags,
             ));
+        }
+        if catches && !oils.sump.as_ref().is_some_and(Sump::has_lifts) {
+            found.extend(no_wetting(&models.pockets));
         }
         warnings.append(&mut oils.warnings);
         planets::assembly(entry, &frame.members, gears, meshes, warnings);
@@ -1022,6 +1046,34 @@ fn described(resolved: &Value, shaft: &str) -> Described {
         bearings: has(Bearing::SECTION),
         seals: has(Seal::SECTION),
     }
+}
+
+/// Bearings whose radial stiffness follows from a load: number of the support, load and stiffness.
+fn stiffnesses(supports: &[SeatedSupport], designs: &[Design]) -> Vec<(usize, f64, f64)> {
+    let each = supports.iter().zip(designs).enumerate();
+    each.filter_map(
+        |(number, (support, design))| match (support.place.radial_stiffness, &design.stiffness) {
+            (Some(RadialStiffness::At(load)), Some(Ok(stiffness))) => Some((number, load.at_load, *stiffness)),
+            _ => None,
+        },
+    )
+    .collect()
+}
+
+/// Ribs that shall catch the oil that gears lift, where it is not known how much that is.
+fn no_wetting(pockets: &[SeatedPocket]) -> Vec<Diagnostic> {
+    let asked = pockets
+        .iter()
+        .filter(|pocket| pocket.entry.rib.is_some_and(|rib| rib.wetting.is_none()));
+    let error = |pocket: &SeatedPocket| {
+        Diagnostic::error(
+            format!("{}.pocket.catch", pocket.path),
+            "how much oil the gears lift is not known: no gear with a churning law dips into a known oil space",
+        )
+        .code(codes::OIL_NETWORK)
+        .help("state `wetting`, or an oil level with `housing.inside` and a churning law in `models.gear_drag`")
+    };
+    asked.map(error).collect()
 }
 
 /// Reports seals that the oil at rest covers.

@@ -109,7 +109,7 @@ impl Drags<'_, '_, '_> {
             },
             part: (self.build).part_again(
                 &format!("gears.{}", gear.id),
-                part(self.entry, self.oils.filled(), body, None),
+                part(self.entry, written.clearance, self.oils.filled(), body, None),
             ),
             common: Common {
                 lubricant: written.lubricant.clone(),
@@ -139,7 +139,7 @@ impl Drags<'_, '_, '_> {
             },
             part: (self.build).part_again(
                 &format!("{} drag", mesh.path),
-                part(self.entry, self.oils.filled(), first, Some(mate)),
+                part(self.entry, None, self.oils.filled(), first, Some(mate)),
             ),
             common: Common {
                 // Braking of both gears at the mesh is their drag, not the loss of the mesh.

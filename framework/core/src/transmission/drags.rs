@@ -3,6 +3,7 @@
 use super::seats::{CylindricalTeeth, GearSeat, MeshSeat};
 use crate::attach::Level;
 use crate::description::GearboxEntry;
+use crate::description::housing::WallClearance;
 use crate::mechanism::gear_drag::{Covers, DragPart, GearBody};
 
 /// Seat of a drag model.
@@ -97,14 +98,16 @@ fn bevel_body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> Option<GearBody
     })
 }
 
-/// A part from the bodies and the housing, with the volume of the oil and the share of the housing that it fills. \[m3 and -\]
+/// A part from the bodies, the gap of the gear and the housing, with the volume of the oil and the share of the housing that it fills. \[m3 and -\]
 pub fn part(
     entry: &GearboxEntry,
+    own: Option<WallClearance>,
     [oil_volume, fill]: [Option<f64>; 2],
     gear: GearBody,
     mate: Option<GearBody>,
 ) -> DragPart {
     let housing = &entry.housing;
+    let clearance = own.or(housing.clearance);
     DragPart {
         gear,
         mate,
@@ -112,8 +115,8 @@ pub fn part(
         fill,
         section_area: housing.section.map(|s| s.area),
         section_perimeter: housing.section.map(|s| s.perimeter),
-        radial_clearance: housing.clearance.map(|c| c.radial),
-        axial_clearance: housing.clearance.map(|c| c.axial),
+        radial_clearance: clearance.map(|c| c.radial),
+        axial_clearance: clearance.map(|c| c.axial),
     }
 }
 

@@ -8,6 +8,7 @@ use crate::description::{GearboxEntry, InsideEntry, InsideSection};
 use crate::document::Diagnostic;
 use crate::registry::Memory;
 use crate::sump::{CHORDS, Crowded, Disc, Outline, Space, Walls, hull};
+use serde_json::Value;
 use std::sync::Arc;
 
 /// Radial and axial gap between gears and wall if none is stated: an assumption. \[m\]
@@ -42,7 +43,7 @@ impl Inside {
     /// The inside of the housing; `None` if it is not stated and the gears do not determine it: without gears, and with ring gears, which
     /// are part of a housing that no hull describes.
     pub fn new(
-        entry: &GearboxEntry,
+        (entry, document): (&GearboxEntry, &Value),
         members: &Members,
         gears: &[GearSeat],
         axes: &Axes,
@@ -63,7 +64,7 @@ impl Inside {
             up[0] * datum[0] + up[1] * datum[1] + up[2] * datum[2]
         };
         let input = Input {
-            discs: discs(entry, members, gears, axes, &sections, (up, height)),
+            discs: discs((entry, document), members, gears, axes, &sections, (up, height)),
             sections: sections.clone(),
             up,
             datum: height,
@@ -198,10 +199,16 @@ fn of_gears(
     })
 }
 
-/// What displaces oil: gears as discs up to their reference circles, because tooth and space halve the ring between root and tip, and
-/// sections of shafts inside between them. Planets, whose axes move, are not among them.
+/// Positions of a planet on its orbit over whose displaced volumes the mean is taken.
+const POSITIONS: usize = 24;
+
+/// Solid share of the ring between bore and outside of a rolling bearing: a convention.
+const SOLID_BEARING: f64 = 0.6;
+
+/// What displaces oil: gears as discs up to their reference circles, because tooth and space halve the ring between root and tip, sections
+/// of shafts inside between them, and rolling bearings on shafts in the housing. Planets displace the mean over their orbit.
 fn discs(
-    entry: &GearboxEntry,
+    (entry, document): (&GearboxEntry, &Value),
     members: &Members,
     gears: &[GearSeat],
     axes: &Axes,
@@ -215,7 +222,7 @@ fn discs(
         } else {
             // The disc reaches from its lowest to its highest point, also if it lies flat.
             let [along, first, second] = axis.local(up);
-            2.0 * radius / (2.0 * radius * first.hypot(second) + width * along.abs())
+            2.0 * radius / (2.0 * radius * first.hypot(second) + width.abs() * along.abs())
         };
         Disc {
             height: up[0] * x + up[1] * y + up[2] * z - datum,
@@ -259,6 +266,43 @@ fn discs(
             }));
         }
     }
+    let planets = gears.iter().filter(|gear| !gear.ring && gear.diameters[0] > 0.0);
+    for (gear, (axis, orbit)) in planets.filter_map(|gear| Some((gear, axes[gear.member]?))) {
+        let count = planets_of(entry, members, gear.member);
+        if orbit == 0.0 || count == 0.0 {
+            continue;
+        }
+        discs.extend((0..POSITIONS).map(|position| {
+            let (sine, cosine) = (std::f64::consts::TAU * position as f64 / POSITIONS as f64).sin_cos();
+            let [_, first, second] = axis.frame;
+            let orbiting = Axis {
+                origin: std::array::from_fn(|i| axis.origin[i] + orbit * (cosine * first[i] + sine * second[i])),
+                ..axis
+            };
+            let width = gear.facewidth * count / POSITIONS as f64;
+            disc(&orbiting, gear.at, 0.5 * gear.diameters[0], width)
+        }));
+    }
+    let bearings = document["bearings"].as_object().into_iter().flatten();
+    for (_, bearing) in bearings.filter(|(_, bearing)| matches!(bearing["outer"].as_str(), None | Some("housing"))) {
+        let number = |key: &str| bearing[key].as_f64();
+        let member = members.names.iter().position(|name| bearing["shaft"] == name.as_str());
+        let (Some(axis), Some(at), Some(width)) = (member.and_then(fixed), number("at"), number("width")) else {
+            continue;
+        };
+        let (Some(bore), Some(outside)) = (number("bore"), number("outside")) else {
+            continue;
+        };
+        for section in sections {
+            let range = both([at - 0.5 * width, at + 0.5 * width], reach(&axis, section));
+            let solid = SOLID_BEARING * (range[1] - range[0]);
+            if solid > 0.0 && outside > bore {
+                // A ring is the difference of two discs.
+                let ring = [(outside, solid), (bore, -solid)];
+                discs.extend(ring.map(|(diameter, width)| disc(&axis, at, 0.5 * diameter, width)));
+            }
+        }
+    }
     discs
 }
 
@@ -282,6 +326,14 @@ fn reach(axis: &Axis, section: &Outline) -> [f64; 2] {
         return along;
     }
     both(along, within(section.extent(), axis.origin[1], y))
+}
+
+/// Number of copies of a planet body; zero for other members.
+fn planets_of(entry: &GearboxEntry, members: &Members, member: usize) -> f64 {
+    let name = &members.names[member];
+    let mut sets = entry.planetary_sets.iter();
+    sets.find(|(_, set)| set.planets.contains(name))
+        .map_or(0.0, |(_, set)| f64::from(set.count))
 }
 
 /// What two ranges have in common.

@@ -566,8 +566,18 @@ fn seated_pocket(
         );
     }
     let feeds: Vec<(usize, f64)> = network.feeding(&pocket.path).collect();
-    let inflow = rib.map_or(0.0, |rib| rib.flow());
-    if feeds.is_empty() && inflow == 0.0 {
+    let caught = rib.filter(|rib| rib.wetting.is_none());
+    let inflow = rib.map_or(0.0, |rib| rib.wetting.unwrap_or(0.0) * rib.rib().share(f64::INFINITY));
+    if rib.is_some_and(|rib| rib.wetting.is_some() && rib.walls.is_none()) {
+        found.push(
+            Diagnostic::error(
+                format!("{path}.catch"),
+                "`wetting` is stated, but not on what length of wall",
+            )
+            .help("state `walls`, or remove `wetting` to have both from the oil space"),
+        );
+    }
+    if feeds.is_empty() && inflow == 0.0 && caught.is_none() {
         warnings.push(
             Diagnostic::warning(path, "no oil flows into the pocket, so it stays empty").help(format!(
                 "add `feeds: [{}]` to a nozzle or pipe, or `catch` to the pocket",
@@ -582,6 +592,7 @@ fn seated_pocket(
         drain: drain.as_ref().map(orifice),
         feeds,
         inflow,
+        rib: caught.map(|rib| rib.rib()),
         oil: pocket.oil,
     })
 }

@@ -181,7 +181,7 @@ pub(crate) struct OilNumbers<'a> {
 
 impl<'a> OilNumbers<'a> {
     pub fn new(
-        entry: &'a GearboxEntry,
+        (entry, document): (&'a GearboxEntry, &serde_json::Value),
         members: &Members,
         (gears, meshes): (&[GearSeat], &[MeshSeat]),
         nodes: &'a NodeNames,
@@ -236,7 +236,7 @@ impl<'a> OilNumbers<'a> {
         let oil = entry.housing.oil.as_ref();
         // An inside without oil is checked, too.
         let asked = oil.is_some() || entry.housing.inside.is_some();
-        let inside = asked.then(|| Inside::new(entry, members, gears, &axes, place, memory, &mut findings));
+        let inside = asked.then(|| Inside::new((entry, document), members, gears, &axes, place, memory, &mut findings));
         let mut oils = Self {
             names,
             default,

@@ -20,6 +20,8 @@ pub(super) struct Design {
     pub induced: Induced,
     /// How it is displaced by an axial load, or why this is not known; `None` without a preload in the gearbox.
     pub row: Option<Result<AngularRow, String>>,
+    /// Its radial stiffness at the load that it states, or why this is not known; `None` if it states none. \[N/m\]
+    pub stiffness: Option<Result<f64, String>>,
 }
 
 impl Default for Design {
@@ -29,6 +31,7 @@ impl Default for Design {
             carries: Carries::ANY,
             induced: Induced::None,
             row: None,
+            stiffness: None,
         }
     }
 }

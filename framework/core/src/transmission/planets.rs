@@ -190,7 +190,8 @@ pub fn models(
             .filter(|g| gears[**g].member == *first)
             .filter_map(|g| {
                 let mesh = meshes.iter().find(|m| m.gears.contains(g))?;
-                Some(part(entry, oils.filled(), body(&gears[*g], *g, mesh)?, None))
+                let own = entry.gears.0[*g].1.clearance;
+                Some(part(entry, own, oils.filled(), body(&gears[*g], *g, mesh)?, None))
             })
             .collect();
         let part = PlanetaryPart {

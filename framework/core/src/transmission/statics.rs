@@ -11,7 +11,7 @@ use super::pairs::{Design, NotCounted};
 use super::preloads;
 use super::seats::{CylindricalTeeth, MeshSeat, Teeth, orbit};
 use super::transfers::TransferSeat;
-use crate::attach::{Axial, Factor, SeatedSupport, dangling};
+use crate::attach::{Axial, Factor, RadialStiffness, SeatedSupport, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
@@ -260,6 +260,22 @@ fn support_layout(
             .help("give both members the same `axis`, also the point from which positions count"),
         );
     }
+    let radial_stiffness = match (place.radial_stiffness, &design.stiffness) {
+        (Some(RadialStiffness::Constant(stiffness)), _) => Some(stiffness),
+        (Some(RadialStiffness::At(_)), Some(Ok(stiffness))) => Some(*stiffness),
+        (Some(RadialStiffness::At(_)), Some(Err(reason))) => {
+            found.push(
+                Diagnostic::error(
+                    format!("{}.radial_stiffness", support.path),
+                    format!("no stiffness at this load: {reason}"),
+                )
+                .code(codes::NO_STIFFNESS)
+                .help("state the stiffness in N/mm, or the geometry of the rolling elements under `internal`"),
+            );
+            None
+        }
+        _ => None,
+    };
     SupportLayout {
         inner,
         outer,
@@ -269,7 +285,7 @@ fn support_layout(
         spring: place.spring_preload,
         takes_radial: design.carries.radial,
         takes_moment: place.takes_moment,
-        radial_stiffness: place.radial_stiffness,
+        radial_stiffness,
         tilting_stiffness: place.tilting_stiffness,
         induced: design.induced_thrust(place).map(|induced| induced.ratio),
         preloaded: None,

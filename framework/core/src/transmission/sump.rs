@@ -8,7 +8,7 @@ use super::{DragModel, Oils};
 use crate::attach::{Level, Oil, State};
 use crate::immersion::Height;
 use crate::loss::{Loss, Undefined};
-use crate::real::Points;
+use crate::real::{Mask as _, Points};
 use crate::sump::{Lift, Lifted, Outline, Running, Space, Walls};
 use crate::transmission::Surface;
 
@@ -124,6 +124,11 @@ impl Sump {
         ends.map(|y| [y, (level + datum - up[0] * 0.5 * (from + to) - up[1] * y) / up[2]])
     }
 
+    /// True if a gear may lift oil.
+    pub(crate) fn has_lifts(&self) -> bool {
+        !self.lifts.is_empty()
+    }
+
     /// Number of gears that may lift oil.
     pub(crate) fn lifts(&self) -> usize {
         self.lifts.len()
@@ -173,10 +178,11 @@ impl Sump {
         }
     }
 
-    /// The balance of the sump at a point; the level at rest determines how much oil there is.
+    /// The balance of the sump at a point; the level at rest determines how much oil there is, of which chambers hold a part (m3).
     pub(crate) fn running<'a, R: Points>(
         &'a self,
         rest: R,
+        held: R,
         oils: &[Oil<R>],
         lifted: &'a [Lifted<R>],
     ) -> Running<'a, R> {
@@ -184,13 +190,20 @@ impl Sump {
         let known = R::each(|point| rest.at_point(point));
         // The volume over the level at rest, with derivatives.
         let stock = R::each(|point| volume(point)[0]) + (rest - known) * R::each(|point| volume(point)[1]);
+        let none = held.is_zero();
+        let left = (stock - held).at_least(0.0);
+        let lowered = if none.all() {
+            rest
+        } else {
+            R::select(none, rest, self.level(left))
+        };
         Running {
             space: &self.space,
             walls: &self.walls,
             lifts: &self.lifts,
             lifted,
-            rest,
-            stock,
+            rest: lowered,
+            stock: R::select(none, stock, left),
             nu: oils[self.oil].nu,
         }
     }

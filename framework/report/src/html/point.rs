@@ -97,7 +97,7 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
             );
             let levels = solution.oil_levels();
             oil = levels
-                .and_then(|levels| oil_section(t, &b.resolved.value, &levels))
+                .and_then(|levels| oil_section(t, &b.resolved.value, &levels, solution.pockets()))
                 .unwrap_or_default();
             if solution.has_flow() {
                 losses = losses_of_parts(t, &solution);

@@ -2,7 +2,7 @@
 
 use gearloss_framework::thermal::Outcome;
 use gearloss_framework::thermal::network::Steady;
-use gearloss_framework::transmission::Transmission;
+use gearloss_framework::transmission::{BearingPair, BodyTemperature, Transmission};
 use gearloss_studies::analyses::balance::reason;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -24,6 +24,15 @@ pub(super) fn network_blocks(transmission: &Transmission, steady: &Steady) -> Bl
     if steady.outcome != Outcome::Converged {
         if let Some(why) = &steady.undefined {
             blocks.text(&format!("  {}\n", reason(transmission, why)));
+        }
+        if steady.outcome == Outcome::NoneBelowMaximum {
+            let maximum = significant(transmission.housing().maximum);
+            blocks.text(&format!(
+                "  as it warms up, more heat enters the network than leaves it, up to {maximum} degC of the oil\n"
+            ));
+        }
+        for line in tightening(transmission, steady) {
+            blocks.text(&line);
         }
         return blocks;
     }
@@ -49,6 +58,28 @@ pub(super) fn network_blocks(transmission: &Transmission, steady: &Steady) -> Bl
     }
     blocks.text(&format!("residual {} W\n", significant(steady.residual)));
     blocks
+}
+
+/// Lines about pairs of bearings whose preload grows as they warm their shaft, which may be why there is no steady state.
+fn tightening(transmission: &Transmission, steady: &Steady) -> Vec<String> {
+    if steady.undefined.is_some() {
+        return Vec::new();
+    }
+    let tightens = |pair: &&BearingPair| {
+        pair.preload.is_some_and(|preload| {
+            matches!(preload.temperatures[0], BodyTemperature::Node(_)) && preload.per_kelvin[0] > 0.0
+        })
+    };
+    let line = |pair: &BearingPair| {
+        let id = |support: usize| transmission.supports()[support].trim_start_matches("bearings.");
+        let bearings: Vec<&str> = pair.supports().map(id).collect();
+        format!(
+            "  the preload of {} of {} grows as the shaft warms, and with it the heat: mount them with less preload or more end play, or back to back\n",
+            bearings.join("/"),
+            transmission.members()[pair.member]
+        )
+    };
+    transmission.pairs().iter().filter(tightens).map(line).collect()
 }
 
 /// Steady state of a thermal network.

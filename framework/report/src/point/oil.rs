@@ -96,6 +96,9 @@ pub(super) fn oil_level_text(levels: Option<OilLevels>) -> String {
             figures(estimate.missing * 1e3, 3),
             figures(estimate.volume * 1e3, 3),
         );
+        if estimate.held > 0.0 {
+            text += &format!("  {} l stand in chambers\n", figures(estimate.held * 1e3, 3));
+        }
     }
     text
 }

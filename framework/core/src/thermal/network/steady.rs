@@ -1,7 +1,9 @@
 //! Steady-state temperatures of a network, with the losses at these temperatures.
 //!
 //! Fixed-point iteration, accelerated by the last changes (Anderson, J. ACM 12 (1965) 547-560), because losses that decrease with
-//! temperature make the plain iteration oscillate.
+//! temperature make the plain iteration oscillate. Where this finds nothing, the search begins anew from the surroundings in small steps,
+//! as the bodies warm up: where heat grows faster with temperature than it leaves, such as that of bearings whose preload grows as they
+//! warm, they pass all temperatures, and there is no steady state. (A steady state below, if there is one, would be reached first.)
 
 use nalgebra::{DMatrix, DVector};
 
@@ -22,8 +24,12 @@ const SETTLED: f64 = 1e-8;
 const EXACTNESS: f64 = 1e-3;
 /// Maximum tolerance of the power flow after the first evaluation.
 const ROUGHEST: f64 = 1e-3;
-/// Maximum number of iterations.
+/// Maximum number of accelerated iterations.
 const MOST: usize = 200;
+/// Further iterations, in which the bodies warm up slowly.
+const WARMING: usize = 400;
+/// Share of the way to the temperatures that its heat would bring about in each of them.
+const SLOWLY: f64 = 0.25;
 /// Number of stored changes.
 const REMEMBERED: usize = 4;
 /// Number of iterations outside the range after which the search ends.
@@ -196,13 +202,17 @@ impl<'m> Seeking<'m> {
         let settled = change <= SETTLED && self.search.least <= self.moment.point.tolerance.power;
         // Evaluated at the maximum temperature, a node would be warmer still: there is no steady state in the range.
         let beyond = |(guess, after): (&f64, &f64)| *guess >= ASKED[1] && *after > ASKED[1];
+        let oil = network.oil();
+        let is_warming = steady.evaluations > MOST;
+        let maximum = transmission.housing().maximum;
+        let passes = is_warming && guess[oil] >= maximum && after[oil] > guess[oil];
         self.hot = if guess.iter().zip(&after).any(beyond) {
             self.hot + 1
         } else {
             0
         };
-        if settled || self.hot == TOO_HOT {
-            steady.outcome = if settled && after[network.oil()] <= transmission.housing().maximum {
+        if settled || passes || self.hot == TOO_HOT {
+            steady.outcome = if settled && after[oil] <= maximum {
                 Outcome::Converged
             } else {
                 Outcome::NoneBelowMaximum
@@ -213,7 +223,9 @@ impl<'m> Seeking<'m> {
                 steady.heat.clone_from(&warm.heat);
                 steady.motors.clone_from(&warm.motors);
             }
-            steady.temperatures = after;
+            if !passes {
+                steady.temperatures = after;
+            }
             self.open = false;
             return;
         }
@@ -221,11 +233,19 @@ impl<'m> Seeking<'m> {
             least: (EXACTNESS * change).min(ROUGHEST),
             ..Search::NEXT
         };
-        steady.temperatures = self.memory.next(guess, &after);
+        if steady.evaluations == MOST {
+            steady.temperatures = network.start(None, self.moment.around);
+        } else if is_warming {
+            for (t, after) in steady.temperatures.iter_mut().zip(&after) {
+                *t += SLOWLY * (after - *t);
+            }
+        } else {
+            steady.temperatures = self.memory.next(guess, &after);
+        }
         for t in &mut steady.temperatures {
             *t = t.clamp(ASKED[0], ASKED[1]);
         }
-        self.open = steady.evaluations < MOST;
+        self.open = steady.evaluations < MOST + WARMING;
     }
 }
 
