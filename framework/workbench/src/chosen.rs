@@ -11,6 +11,7 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::numbers::RPM;
 use gearloss_studies::analyses::progress::Progress;
 use gearloss_studies::points::{OilTemperature, PreparedPoint};
+use serde_json::{Value, json};
 
 use crate::answer::Fault;
 use crate::request::{GivenInput, PointOf, Quantity};
@@ -31,6 +32,17 @@ impl Chosen {
         set: &str,
         progress: &dyn Progress,
     ) -> Result<Self, Fault> {
+        Self::filled(language, files, file, (set, None), progress)
+    }
+
+    /// The same with another volume of oil (l), whose level follows from the oil space.
+    pub fn filled(
+        language: &Language,
+        files: &SharedSource,
+        file: &str,
+        (set, volume): (&str, Option<f64>),
+        progress: &dyn Progress,
+    ) -> Result<Self, Fault> {
         let wanted = || {
             if progress.should_continue() {
                 Ok(())
@@ -48,11 +60,57 @@ impl Chosen {
         wanted()?;
         let transmission = gearbox.build(language, &resolved)?;
         wanted()?;
-        Ok(Self {
+        let own = Self {
             gearbox,
             resolved,
             transmission,
+        };
+        let Some(volume) = volume else { return Ok(own) };
+        let overrides = own.fill(volume)?;
+        let resolved = own.gearbox.resolve(language, &Choice { overrides, ..choice })?;
+        wanted()?;
+        let transmission = own.gearbox.build(language, &resolved)?;
+        wanted()?;
+        Ok(Self {
+            gearbox: own.gearbox,
+            resolved,
+            transmission,
         })
+    }
+
+    /// Overrides for another volume of oil in l: the volume, and its level at the oil temperature of the gearbox if that states a level.
+    pub fn fill(&self, volume: f64) -> Result<Vec<(String, Value)>, Fault> {
+        let none = || {
+            Fault::new(
+                "the level of another volume is not known",
+                "state an oil level, or a volume, and `housing.inside` if there is no hull of the gears",
+            )
+        };
+        let space = self.transmission.oil_space().ok_or_else(none)?.space();
+        let oil = &self.resolved.value["housing"]["oil"];
+        let mut overrides = vec![("housing.oil.volume".to_owned(), json!(format!("{volume} l")))];
+        if oil["level"].is_number() {
+            let circuit = oil["circuit_volume"].as_f64().unwrap_or(0.0);
+            let expansion = self
+                .transmission
+                .oil_expansion(oil["fill_temperature"].as_f64().unwrap_or(20.0));
+            let hot = volume * 1e-3 * expansion - circuit;
+            if !(hot > 0.0 && hot <= space.full()) {
+                return Err(Fault::new(
+                    format!(
+                        "{volume} l of oil have no level: {:.3} l fit",
+                        (space.full() + circuit) / expansion * 1e3
+                    ),
+                    "choose another volume",
+                ));
+            }
+            let offset = oil["level_offset"].as_f64().unwrap_or(0.0);
+            overrides.push((
+                "housing.oil.level".to_owned(),
+                json!(format!("{} mm", (space.level(hot) - offset) * 1e3)),
+            ));
+        }
+        Ok(overrides)
     }
 
     /// Prepares a point.

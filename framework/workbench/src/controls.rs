@@ -35,6 +35,8 @@ pub struct Controls {
     pub model_sets: Vec<String>,
     /// Origin of the oil temperature.
     pub oil: OilControls,
+    /// Volume of the oil; absent if the oil space is not known.
+    pub fill: Option<FillControls>,
 }
 
 /// A gear state with what has to be given.
@@ -83,6 +85,38 @@ pub struct OilControls {
     pub value: Option<f64>,
 }
 
+/// Volume of the oil with the range of its slider. \[l\]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FillControls {
+    /// Lower end.
+    pub from: f64,
+    /// Upper end.
+    pub to: f64,
+    /// That of the file, or of its level.
+    pub value: f64,
+}
+
+/// Shares of the full oil space at the ends of the slider of the volume.
+const FILLED: [f64; 2] = [0.05, 0.9];
+
+/// The volume of the oil of a gearbox.
+fn fill(chosen: &Chosen) -> Option<FillControls> {
+    let space = chosen.transmission.oil_space()?.space();
+    let oil = &chosen.resolved.value["housing"]["oil"];
+    let expansion = chosen.transmission.oil_expansion(oil["fill_temperature"].as_f64()?);
+    let stated = oil["volume"].as_f64();
+    // That below a level has the temperature of the oil.
+    let value = stated.or_else(|| Some(chosen.transmission.oil_fill()?.0 / expansion))?;
+    let circuit = oil["circuit_volume"].as_f64().unwrap_or(0.0);
+    let [from, to] = FILLED.map(|share| rounded((share * space.full() + circuit) / expansion * 1e3));
+    let value = rounded(value * 1e3);
+    Some(FillControls {
+        from: from.min(value),
+        to: to.max(value),
+        value,
+    })
+}
+
 /// The controls of a gearbox. `studies` lists files that may state where it is used.
 pub fn controls(
     language: &Language,
@@ -110,6 +144,7 @@ pub fn controls(
             value: Some(transmission.oil_temperature).filter(|_| mode == ThermalMode::Fixed),
             mode,
         },
+        fill: fill(&chosen),
     })
 }
 
@@ -131,6 +166,7 @@ fn start(chosen: &Chosen, gearbox: &str, ends: [f64; 2]) -> Vec<GearControls> {
             gear: gear.name.clone(),
             inputs: gear.inputs.iter().map(InputControls::given).collect(),
             oil_temperature: None,
+            oil_volume: None,
             model_set: String::new(),
         };
         chosen.prepare(&point).is_ok_and(|prepared| {

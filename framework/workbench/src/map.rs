@@ -16,6 +16,9 @@ use crate::chosen::Chosen;
 use crate::request::{MapOf, Span};
 use crate::section::section_json;
 
+/// Model set of another volume of oil.
+const FILLED: &str = "given_volume";
+
 /// Maximum number of torques and of speeds.
 const MOST: usize = 60;
 
@@ -36,18 +39,18 @@ pub fn map(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn
 
 /// The study of a map.
 fn study(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn Progress) -> Result<Study, Fault> {
-    let ports = ports(language, files, of, progress)?;
+    let (ports, fill) = ports(language, files, of, progress)?;
     let file = Path::new(&of.gearbox);
     let [torque_at, speed_at] = ports;
-    let sets: Vec<&str> = Some(of.model_set.as_str())
-        .filter(|set| !set.is_empty())
-        .into_iter()
-        .collect();
+    let own = Some(of.model_set.as_str()).filter(|set| !set.is_empty());
+    // Another volume is a model set of its own.
+    let filled = of.oil_volume.map(|_| FILLED);
+    let sets: Vec<&str> = filled.or(own).into_iter().collect();
     let mut conditions = json!({ "torque_at": torque_at, "speed_at": speed_at });
     if let Some(oil) = of.oil_temperature {
         conditions["oil_temperature"] = json!(format!("{oil} degC"));
     }
-    let study = json!({
+    let mut study = json!({
         "gearloss": "study/1",
         "gearboxes": { "gearbox": file.file_name().map(|name| name.to_string_lossy()) },
         "conditions": conditions,
@@ -58,15 +61,31 @@ fn study(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn P
         } },
         "analyses": { "map": { "type": "map", "grid": "map", "model_sets": sets } },
     });
+    if let Some(name) = filled {
+        let set: serde_json::Map<String, Value> = fill.into_iter().collect();
+        study["model_sets"][name] = match own {
+            Some(own) => json!({ "extends": own, "set": set }),
+            None => json!({ "set": set }),
+        };
+    }
     let folder = file.parent().unwrap_or(Path::new(""));
     let study = Study::from_text(language, files, study.to_string(), "map of the workbench", folder)?;
     study.check(language)?;
     Ok(study)
 }
 
-/// Ports of torque and speed, as in the controls.
-fn ports(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn Progress) -> Result<[String; 2], Fault> {
+/// Ports of torque and speed, as in the controls, and overrides for another volume of oil.
+#[allow(clippy::type_complexity)]
+fn ports(
+    language: &Language,
+    files: &SharedSource,
+    of: &MapOf,
+    progress: &dyn Progress,
+) -> Result<([String; 2], Vec<(String, Value)>), Fault> {
     let chosen = Chosen::read(language, files, &of.gearbox, &of.model_set, progress)?;
+    let fill = of
+        .oil_volume
+        .map_or_else(|| Ok(Vec::new()), |volume| chosen.fill(volume))?;
     let transmission = &chosen.transmission;
     let state = transmission
         .state(&of.gear)
@@ -75,7 +94,10 @@ fn ports(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn P
     let speeds = &transmission.states()[state].speed_ports;
     let reference = transmission.reference_port();
     match (speeds.as_slice(), transmission.torques_needed(state)) {
-        ([speed], 1) => Ok([ports[reference].name.clone(), ports[*speed].name.clone()]),
+        ([speed], 1) => {
+            let names = [ports[reference].name.clone(), ports[*speed].name.clone()];
+            Ok((names, fill))
+        }
         _ => Err(Fault::new(
             format!(
                 "a map needs one torque and one speed, which `{}` does not have",

@@ -6,6 +6,7 @@ use gearloss_report::html::{losses_of_parts, waterfall};
 use gearloss_report::page::Block;
 use gearloss_report::picture::Picture;
 use gearloss_report::point::{Explained, PointRecord, outside_ranges, point_blocks, ratings_blocks, remarks};
+use gearloss_report::schematic::oil_section;
 use gearloss_studies::analyses::progress::Progress;
 use gearloss_studies::points::SolvedPoint;
 use serde::Serialize;
@@ -36,6 +37,8 @@ pub struct PointAnswer {
     pub drawing: Vec<(String, f64)>,
     /// From the input to the output power.
     pub waterfall: Option<Picture>,
+    /// Cross-section of the housing with its oil; absent if the oil space is not known.
+    pub oil_section: Option<String>,
     /// How the temperature was found.
     pub convergence: Convergence,
     /// What a reader has to be careful about.
@@ -64,7 +67,7 @@ pub fn point(
     of: &PointOf,
     progress: &dyn Progress,
 ) -> Result<PointAnswer, Fault> {
-    let chosen = Chosen::read(language, files, &of.gearbox, &of.model_set, progress)?;
+    let chosen = Chosen::filled(language, files, &of.gearbox, (&of.model_set, of.oil_volume), progress)?;
     let Chosen {
         gearbox,
         resolved,
@@ -90,6 +93,9 @@ pub fn point(
         } else {
             Vec::new()
         },
+        oil_section: solution
+            .oil_levels()
+            .and_then(|levels| oil_section(transmission, &resolved.value, &levels, solution.pockets())),
         waterfall: flow.then(|| waterfall(set_name(of), solution)).flatten(),
         convergence: Convergence::new(transmission, found),
         remarks: outside_ranges(&solved)
@@ -140,7 +146,7 @@ pub fn explain(
     of: &PointOf,
     progress: &dyn Progress,
 ) -> Result<String, Fault> {
-    let chosen = Chosen::read(language, files, &of.gearbox, &of.model_set, progress)?;
+    let chosen = Chosen::filled(language, files, &of.gearbox, (&of.model_set, of.oil_volume), progress)?;
     let Chosen {
         gearbox,
         resolved,

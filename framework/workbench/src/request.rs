@@ -219,6 +219,9 @@ pub struct PointOf {
     pub inputs: Vec<GivenInput>,
     /// Oil temperature; as the gearbox states if absent. [degC]
     pub oil_temperature: Option<f64>,
+    /// Volume of the oil, from which the level follows; as the gearbox states if absent. [l]
+    #[serde(default)]
+    pub oil_volume: Option<f64>,
     /// Model set; empty for the models of the gearbox itself.
     pub model_set: String,
 }
@@ -234,6 +237,9 @@ pub struct MapOf {
     pub model_set: String,
     /// Oil temperature; as the gearbox states if absent. [degC]
     pub oil_temperature: Option<f64>,
+    /// Volume of the oil; as the gearbox states if absent. [l]
+    #[serde(default)]
+    pub oil_volume: Option<f64>,
     /// Torques. [Nm]
     pub torque: Span,
     /// Speeds. [rpm]

@@ -198,6 +198,60 @@ fn a_map_has_the_losses_of_its_points() {
     }
 }
 
+/// Another volume of oil has the level that belongs to it: the point is that of a file with both, as is the map.
+#[test]
+fn a_given_volume_has_its_level() {
+    let session = about("two-speed-ev");
+    let text = std::fs::read_to_string(example("two-speed-ev/gearbox.yaml")).unwrap();
+    let text = text.replace("{ type: iso14179_2, speed_of: pinion }", "{ type: changenet_2011 }");
+    let law = json!({ "gearbox.yaml": text });
+    let controls = value(
+        &session,
+        json!({ "request": "controls", "texts": law, "gearbox": "gearbox.yaml" }),
+    );
+    let [from, value_, to] = ["from", "value", "to"].map(|key| controls["fill"][key].as_f64().unwrap());
+    assert!(from < value_ && value_ < to && value_ == 1.2, "{controls}");
+    let point = first_point(&session, &law, "gearbox.yaml");
+    let solved = |volume: Value| {
+        let mut point = point.clone();
+        point["oil_volume"] = volume;
+        value(&session, point)
+    };
+    let (own, less, more) = (solved(Value::Null), solved(json!(1.0)), solved(json!(1.5)));
+    let level = |answer: &Value| answer["point"]["oil_level"]["at_rest_mm"].as_f64().unwrap();
+    assert_eq!(level(&own), -49.0);
+    assert!(level(&less) < level(&more), "{less} {more}");
+    assert!(less["loss"].as_f64() < more["loss"].as_f64());
+    for answer in [&own, &less, &more] {
+        let drawn = answer["oil_section"].as_str().unwrap();
+        assert!(drawn.starts_with("<svg") && drawn.contains("oil at rest"), "{drawn}");
+    }
+    let mut map = json!({
+        "request": "map", "texts": law, "gearbox": "gearbox.yaml", "gear": "first", "model_set": "", "oil_temperature": null,
+        "oil_volume": 1.5, "torque": { "from": 0.0, "to": 10.0 }, "speed": { "from": 0.0, "to": 10000.0 }, "count": 5,
+    });
+    let section = value(&session, map.clone());
+    let quantities = section["pictures"][0]["quantities"].as_array().unwrap().clone();
+    let loss = quantities.iter().find(|quantity| quantity["unit"] == "W").unwrap();
+    let mut there = point.clone();
+    there["oil_volume"] = json!(1.5);
+    there["inputs"][0]["value"] = json!(4.0);
+    there["inputs"][1]["value"] = json!(6000.0);
+    assert_eq!(loss["panels"][0][5 + 2], value(&session, there)["loss"]);
+    map["oil_volume"] = json!(90.0);
+    for request in [map, {
+        let mut point = point.clone();
+        point["oil_volume"] = json!(90.0);
+        point
+    }] {
+        let fault = fault(&session, request);
+        assert!(
+            fault["message"].as_str().unwrap().contains("90 l of oil have no level"),
+            "{fault}"
+        );
+    }
+}
+
 /// What cannot be solved is told with what to do.
 #[test]
 fn wrong_points_are_refused() {

@@ -5,6 +5,14 @@ import { significant, withUnit, words } from "../format.ts";
 import { html } from "../svg.ts";
 import type { FileRange, PointAnswer } from "./protocol.ts";
 
+/** The element of a drawing, without what could run; null if it is none. */
+function elementOf(svg: string): SVGSVGElement | null {
+  const parsed = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
+  if (parsed.nodeName !== "svg") return null;
+  for (const element of parsed.querySelectorAll("script, foreignObject")) element.remove();
+  return document.importNode(parsed, true) as unknown as SVGSVGElement;
+}
+
 export class DrawingPane {
   private original: SVGSVGElement | null = null;
   private source = "";
@@ -13,6 +21,8 @@ export class DrawingPane {
   private losses: PointAnswer["drawing"] = [];
   private readonly box: HTMLElement;
   private readonly scale: HTMLElement;
+  private readonly oil: HTMLElement;
+  private oilSource: string | null = null;
   chosen: string | null = null;
 
   constructor(
@@ -21,6 +31,7 @@ export class DrawingPane {
   ) {
     this.box = html(host, "div", { class: "drawing drawing-box" });
     this.scale = html(host, "div", { class: "drawing-scale" });
+    this.oil = html(host, "div", { class: "drawing-oil", hidden: "" });
     new ResizeObserver(() => this.shown && legible(this.shown)).observe(this.box);
   }
 
@@ -28,13 +39,12 @@ export class DrawingPane {
     this.places = places;
     if (svg === this.source) return;
     this.source = svg;
-    const parsed = new DOMParser().parseFromString(svg, "image/svg+xml").documentElement;
-    if (parsed.nodeName !== "svg") {
+    const parsed = elementOf(svg);
+    if (!parsed) {
       this.message("The drawing cannot be shown.");
       return;
     }
-    for (const element of parsed.querySelectorAll("script, foreignObject")) element.remove();
-    this.original = document.importNode(parsed, true) as unknown as SVGSVGElement;
+    this.original = parsed;
     this.draw();
   }
 
@@ -43,7 +53,18 @@ export class DrawingPane {
     this.draw();
   }
 
+  /** The cross-section with the oil at the operating point. */
+  showOil(svg: string | null): void {
+    if (svg === this.oilSource) return;
+    this.oilSource = svg;
+    this.oil.replaceChildren();
+    this.oil.hidden = svg === null;
+    const parsed = svg === null ? null : elementOf(svg);
+    if (parsed) this.oil.append(parsed);
+  }
+
   message(text: string): void {
+    this.showOil(null);
     this.source = "";
     this.original = null;
     this.shown = null;

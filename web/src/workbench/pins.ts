@@ -21,8 +21,8 @@ export class Pin {
   }
 
   private own(of: MapOf): MapOf {
-    const { gearbox, gear, model_set, oil_temperature } = this.point;
-    return { ...of, gearbox, gear, model_set, oil_temperature };
+    const { gearbox, gear, model_set, oil_temperature, oil_volume } = this.point;
+    return { ...of, gearbox, gear, model_set, oil_temperature, oil_volume };
   }
 
   /** The map of the pinned state over the ranges of another map; null if a newer request took its place. */

@@ -1,9 +1,9 @@
-// The operating point: gear, model set, inputs of the gear and oil temperature.
+// The operating point: gear, model set, inputs of the gear, temperature and volume of the oil.
 
 import { html } from "../svg.ts";
 import { words } from "../format.ts";
 import type { Controls, Input, PointOf } from "./protocol.ts";
-import { Slider, type SliderValue } from "./sliders.ts";
+import { plain, Slider, type SliderValue } from "./sliders.ts";
 import { store, stored } from "./storage.ts";
 
 /** What was chosen for a gearbox; kept for a reload. */
@@ -12,6 +12,8 @@ interface Chosen {
   model_set: string;
   oil: number | null;
   oil_range: [number, number];
+  fill: number | null;
+  fill_range: [number, number] | null;
   /** By gear, quantity and port. */
   inputs: Record<string, SliderValue>;
 }
@@ -28,6 +30,7 @@ export class PointPane {
   private shape = "";
   private sliders: { input: Input; slider: Slider }[] = [];
   private oil: Slider | null = null;
+  private fill: Slider | null = null;
 
   constructor(
     private readonly host: HTMLElement,
@@ -43,6 +46,7 @@ export class PointPane {
     this.shape = "";
     this.sliders = [];
     this.oil = null;
+    this.fill = null;
     this.host.replaceChildren();
   }
 
@@ -58,6 +62,8 @@ export class PointPane {
       model_set: kept && controls.model_sets.includes(kept.model_set) ? kept.model_set : (controls.model_sets[0] ?? ""),
       oil: kept?.oil ?? null,
       oil_range: kept?.oil_range ?? OIL,
+      fill: controls.fill ? (kept?.fill ?? null) : null,
+      fill_range: kept?.fill_range ?? null,
       inputs: kept?.inputs ?? {},
     };
     // The fields that are shown write into this object.
@@ -116,15 +122,23 @@ export class PointPane {
       slider.element.dataset.port = input.port;
       return { input, slider };
     });
+    const given = (name: string, title: string, file: string, value: () => number | null, act: (given: boolean) => void) => {
+      const box = html(host, "div", { class: "oil" });
+      const label = html(box, "label");
+      html(label, "span", {}, title);
+      const mode = html(label, "select", { "data-name": name });
+      html(mode, "option", { value: "file" }, file);
+      html(mode, "option", { value: "given" }, "given");
+      mode.value = value() === null ? "file" : "given";
+      mode.addEventListener("change", () => act(mode.value === "given"));
+      return html(box, "div");
+    };
     const asFile = `${controls.oil.mode === "fixed" ? (controls.oil.value === null ? "fixed" : `${controls.oil.value} °C`) : controls.oil.mode}, as in the file`;
-    const box = html(host, "div", { class: "oil" });
-    const label = html(box, "label");
-    html(label, "span", {}, "Oil temperature");
-    const mode = html(label, "select", { "data-name": "oil" });
-    html(mode, "option", { value: "file" }, asFile);
-    html(mode, "option", { value: "given" }, "given");
-    mode.value = chosen.oil === null ? "file" : "given";
-    const place = html(box, "div");
+    const place = given("oil", "Oil temperature", asFile, () => chosen.oil, (given) => {
+      chosen.oil = given ? (this.suggestedOil ?? controls.oil.value ?? 60) : null;
+      sliderOfOil();
+      this.notice("value");
+    });
     const sliderOfOil = () => {
       place.replaceChildren();
       this.oil = null;
@@ -140,11 +154,30 @@ export class PointPane {
       this.oil = slider;
       this.showReset();
     };
-    mode.addEventListener("change", () => {
-      chosen.oil = mode.value === "given" ? (this.suggestedOil ?? controls.oil.value ?? 60) : null;
-      sliderOfOil();
-      this.notice("value");
-    });
+    const { fill } = controls;
+    const placeOfFill = fill
+      ? given("fill", "Oil volume", `${plain(fill.value)} l, as in the file`, () => chosen.fill, (given) => {
+          chosen.fill = given ? fill.value : null;
+          sliderOfFill();
+          this.notice("range");
+        })
+      : null;
+    const sliderOfFill = () => {
+      placeOfFill?.replaceChildren();
+      this.fill = null;
+      if (!fill || !placeOfFill || chosen.fill === null) return;
+      const [from, to] = chosen.fill_range ?? [fill.from, fill.to];
+      const slider = new Slider(placeOfFill, "Given volume", "l", { from, to, value: chosen.fill }, () => {
+        const { from, to, value } = slider.state;
+        chosen.fill = value;
+        chosen.fill_range = [from, to];
+        // A map is of one volume.
+        this.notice("range");
+      });
+      slider.element.dataset.quantity = "fill";
+      this.fill = slider;
+      this.showReset();
+    };
     this.reset = html(host, "button", { type: "button", class: "reset-ranges", hidden: "" }, "Reset the ranges");
     this.reset.addEventListener("click", () => {
       for (const input of gear?.inputs ?? []) {
@@ -152,10 +185,12 @@ export class PointPane {
         if (kept) Object.assign(kept, { from: input.from, to: input.to });
       }
       chosen.oil_range = OIL;
+      chosen.fill_range = null;
       this.build();
       this.notice("range");
     });
     sliderOfOil();
+    sliderOfFill();
     this.showReset();
     if (focused) host.querySelector<HTMLElement>(`[data-name="${focused}"]`)?.focus();
   }
@@ -169,7 +204,7 @@ export class PointPane {
   private showReset(): void {
     if (!this.reset) return;
     const differs = ({ from, to }: { from: number; to: number }, low: number, high: number) => from !== Math.min(low, high) || to !== Math.max(low, high);
-    this.reset.hidden = !this.sliders.some(({ input, slider }) => differs(slider.state, input.from, input.to)) && !(this.oil && differs(this.oil.state, ...OIL));
+    this.reset.hidden = !this.sliders.some(({ input, slider }) => differs(slider.state, input.from, input.to)) && !(this.oil && differs(this.oil.state, ...OIL)) && !(this.fill && this.controls?.fill && differs(this.fill.state, this.controls.fill.from, this.controls.fill.to));
   }
 
   private keep(): void {
@@ -184,7 +219,7 @@ export class PointPane {
 
   /** What is wrong in a field; null if nothing is. */
   get wrong(): string | null {
-    const sliders = [...this.sliders.map((s) => s.slider), ...(this.oil ? [this.oil] : [])];
+    const sliders = [...this.sliders.map((s) => s.slider), ...(this.oil ? [this.oil] : []), ...(this.fill ? [this.fill] : [])];
     return sliders.map((s) => s.wrong).find((w) => w !== null) ?? null;
   }
 
@@ -192,7 +227,7 @@ export class PointPane {
     const { controls, chosen, gearbox } = this;
     if (!controls || !chosen || !gearbox) return null;
     const inputs = this.sliders.map(({ input, slider }) => ({ quantity: input.quantity, port: input.port, value: slider.state.value }));
-    return { gearbox, gear: chosen.gear, inputs, oil_temperature: this.oil?.state.value ?? null, model_set: chosen.model_set };
+    return { gearbox, gear: chosen.gear, inputs, oil_temperature: this.oil?.state.value ?? null, oil_volume: this.fill?.state.value ?? null, model_set: chosen.model_set };
   }
 
   /** Ranges of the sliders for a map; null without one torque and one speed. */

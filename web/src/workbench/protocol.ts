@@ -91,6 +91,8 @@ export interface Controls {
   model_sets: string[];
   /** How the oil temperature is found if none is given, and the one in the file for `fixed`. */
   oil: { mode: "fixed" | "balance" | "network"; value: number | null };
+  /** Volume of the oil in the file or of its level, with the range of its slider in l; null if the oil space is not known. */
+  fill: { from: number; to: number; value: number } | null;
 }
 
 /** A point of a gearbox. */
@@ -100,6 +102,8 @@ export interface PointOf {
   inputs: { quantity: "torque" | "speed"; port: string; value: number }[]; // Nm, rpm
   /** degC; null: as the file says (fixed temperature, balance or network). */
   oil_temperature: number | null;
+  /** l; null: as the file says. The level follows from it. */
+  oil_volume: number | null;
   model_set: string;
 }
 
@@ -138,6 +142,8 @@ export interface PointAnswer {
   drawing: [path: string, loss: number][];
   /** From the input to the output power. */
   waterfall: Picture | null;
+  /** Cross-section of the housing with the levels of its oil, an `<svg>` element; null if the oil space is not known. */
+  oil_section: string | null;
   convergence: Convergence;
   /** Notes, the worst first: outside stated ranges, missing models, evidence. */
   remarks: string[];
@@ -148,6 +154,7 @@ export interface MapOf {
   gear: string;
   model_set: string;
   oil_temperature: number | null;
+  oil_volume: number | null;
   torque: { from: number; to: number }; // Nm
   speed: { from: number; to: number }; // rpm
   /** Torques and speeds, each; at most 60. */

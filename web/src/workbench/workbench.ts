@@ -684,6 +684,7 @@ export class Workbench {
     document.documentElement.dataset.temperature = answer.convergence.of;
     this.convergence.show(answer.convergence);
     this.drawing.colour(answer.drawing);
+    this.drawing.showOil(answer.oil_section);
     this.markMap();
     const pin = at("pin") as HTMLButtonElement;
     pin.disabled = false;
@@ -802,8 +803,8 @@ export class Workbench {
     const [of, ranges] = [this.point.point(), this.point.ranges()];
     if (!of || this.point.wrong !== null) return;
     if (!ranges) return this.map.message("A map needs a torque and a speed; this gear has other inputs.");
-    const { gearbox, gear, model_set, oil_temperature } = of;
-    const own: MapOf = { gearbox, gear, model_set, oil_temperature, ...ranges, count: Number(this.map.count.value) };
+    const { gearbox, gear, model_set, oil_temperature, oil_volume } = of;
+    const own: MapOf = { gearbox, gear, model_set, oil_temperature, oil_volume, ...ranges, count: Number(this.map.count.value) };
     const texts = this.files.texts();
     // All texts: a text that was saved since gives the same map.
     const key = JSON.stringify([own, this.files.everything()]);
@@ -864,7 +865,7 @@ export class Workbench {
       const { of, answer } = this.answer;
       const map = this.mapOf && this.mapOf.of.gearbox === of.gearbox ? this.mapOf : null;
       const inputs = of.inputs.map((i) => `${i.value} ${i.quantity === "torque" ? "Nm" : "rpm"}`).join(", ");
-      const fresh = map && map.key === JSON.stringify([map.of, this.files.everything()]) && map.of.gear === of.gear && map.of.model_set === of.model_set && map.of.oil_temperature === of.oil_temperature;
+      const fresh = map && map.key === JSON.stringify([map.of, this.files.everything()]) && map.of.gear === of.gear && map.of.model_set === of.model_set && map.of.oil_temperature === of.oil_temperature && map.of.oil_volume === of.oil_volume;
       this.pin = new Pin(`${of.gear}, ${inputs}`, of, answer, this.files.everything(), this.transport, fresh ? map : null);
       (at("pin-name") as HTMLInputElement).value = this.pin.name;
     }
