@@ -92,7 +92,6 @@ impl CheckedGearbox {
         });
         let dry = dry_bearings(self)
             .into_iter()
-            .chain(unfed_bearings(self))
             .map(|warning| self.gearbox.places.place(warning));
         let supply = self.short_of_oil();
         let built = self.transmission.warnings.iter().cloned();
@@ -207,9 +206,16 @@ pub fn overloaded(t: &Transmission) -> Vec<Note> {
     notes(t, &seen).into_iter().filter(safety).collect()
 }
 
-/// Warnings for bearings in the oil of the housing that no oil reaches at the rated speed in any gear: the level while rotating is below
-/// them, and no gear in the oil is fast enough to throw oil at them.
+/// Warnings for bearings that no oil reaches at the rated speed in any gear.
 pub fn dry_bearings(checked: &CheckedGearbox) -> Vec<Diagnostic> {
+    above_the_oil(checked)
+        .into_iter()
+        .chain(unfed_bearings(checked))
+        .collect()
+}
+
+/// Those in the oil of the housing: the level while rotating is below them, and no gear in the oil is fast enough to throw oil at them.
+fn above_the_oil(checked: &CheckedGearbox) -> Vec<Diagnostic> {
     let t = &checked.transmission;
     let bearings = &checked.resolved.value[Bearing::SECTION];
     let sump = &checked.resolved.value["housing"]["oil"]["lubricant"];
@@ -253,7 +259,7 @@ pub fn dry_bearings(checked: &CheckedGearbox) -> Vec<Diagnostic> {
     asked.into_iter().map(warning).collect()
 }
 
-/// Warnings for bearings that the oil of the sump does not reach (`fed: false`) and into whose pocket nothing flows at the rated speed.
+/// Those that the oil of the sump does not reach (`fed: false`) and into whose pocket nothing flows at the rated speed.
 fn unfed_bearings(checked: &CheckedGearbox) -> Vec<Diagnostic> {
     let t = &checked.transmission;
     let bearings = &checked.resolved.value[Bearing::SECTION];
