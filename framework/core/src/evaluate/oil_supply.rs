@@ -164,7 +164,7 @@ impl Solution<'_> {
             };
             match t.parts.iter().find(is_of)?.kind {
                 PartKind::Component(component) => t.components[component].placed.lowest(),
-                PartKind::Mesh(_) | PartKind::Drag(_) => None,
+                PartKind::Mesh(_) | PartKind::Drag(_) | PartKind::Transfer(_) => None,
             }
         };
         network
