@@ -9,7 +9,7 @@
 //! bearings the equivalent of their friction at the trunnion, to be stated. Seals of the trunnions, the churning of grease and inertia are
 //! not included.
 
-use std::f64::consts::{FRAC_PI_4, PI};
+use std::f64::consts::PI;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
@@ -61,7 +61,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Cross, Diagnostic> {
 impl JointLaw for Cross {
     #[inline(always)]
     fn loss<R: Answers>(&self, at: &JointAt<'_, R>) -> Result<Loss<R>, Undefined> {
-        let turned = at.angle.lift(|beta| beta.tan() + (FRAC_PI_4 + 0.5 * beta).tan().ln());
+        // asinh(tan(beta)) is ln tan(pi/4 + beta/2), also exactly zero without an angle.
+        let turned = at.angle.lift(|beta| beta.tan() + beta.tan().asinh());
         let share = at.observe(&SHARE, turned * self.factor);
         Ok(Loss::POWERS.with(&TRUNNIONS, at.torque * at.speed.abs() * share))
     }
