@@ -64,6 +64,7 @@ fn unplaced(case: Case) -> Unplaced {
     };
     Unplaced {
         pairs: None,
+        worm: None,
         blank: (kind == CrossedKind::Bevel).then(|| Blank::new(&cones, &depth, facewidth, None)),
         kind,
         cones,
