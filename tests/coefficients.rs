@@ -275,6 +275,7 @@ fn sets_and_their_components_take_coefficients() {
         set: Some("mine".to_owned()),
         sets: sets.as_object().unwrap().clone(),
         overrides: vec![("bearings.B1.model.coefficients.constant_factor".to_owned(), json!(2e-5))],
+        ..Choice::default()
     };
     let resolved = gearbox
         .resolve(&language, &choice)

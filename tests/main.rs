@@ -21,6 +21,7 @@ mod cycle;
 mod dependencies;
 mod derivatives;
 mod distributed;
+mod drive_unit;
 mod drivetrain;
 mod editor;
 mod ehl_mixed;

@@ -165,7 +165,7 @@ fn a_gain_has_a_band_under_uncertain_inputs() {
     )));
     let band = found.gains[0].band.unwrap();
     let gain = found.gains[0].present_w - found.gains[0].best_w.unwrap();
-    let [low, middle, high] = band.gain_w;
+    let [low, middle, high] = band.gain_w.unwrap();
     assert!(low <= middle && middle <= high && band.samples == 16);
     assert!(low <= gain && gain <= high, "{low} {gain} {high}");
     assert!(!band.contains_zero);

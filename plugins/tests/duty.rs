@@ -94,6 +94,7 @@ fn duty(name: &str) -> [f64; 5] {
         }),
         tyre_radius: 0.3357,
         rotating_mass_factor: 1.04,
+        inertia: None,
         gravity: STANDARD_GRAVITY,
         regeneration: Some(Regeneration {
             torque: 350.0,

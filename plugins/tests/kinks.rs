@@ -100,6 +100,7 @@ fn choice(churning: &str, overrides: &[(&str, f64)]) -> Choice {
         set: Some("churned".to_owned()),
         sets: std::iter::once(("churned".to_owned(), models)).collect(),
         overrides: charge.into_iter().chain(given).collect(),
+        ..Choice::default()
     }
 }
 

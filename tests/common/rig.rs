@@ -116,7 +116,7 @@ pub fn identification<'a>(
     let choice = Choice {
         set: Some("complete".to_owned()),
         sets: sets(language),
-        overrides: Vec::new(),
+        ..Choice::default()
     };
     let found = Identification::new(
         language,
@@ -164,6 +164,7 @@ impl Rig {
             set: Some(set.to_owned()),
             sets: sets(language),
             overrides: overrides.collect(),
+            ..Choice::default()
         };
         let transmission = gearbox(language)
             .transmission(language, &choice)

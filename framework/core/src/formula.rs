@@ -295,7 +295,8 @@ impl Grammar for Compiler<'_> {
             self.program.push(Op::Number(number.parse().unwrap_or(f64::NAN)));
             return Ok(());
         }
-        let name = scanner.advance_to(|c| !(c.is_ascii_alphanumeric() || c == '_'));
+        // Paths are names with dots.
+        let name = scanner.advance_to(|c| !(c.is_ascii_alphanumeric() || c == '_' || c == '.'));
         if name.is_empty() {
             return Err(if scanner.rest().is_empty() {
                 scanner.fault("the formula ends too early")

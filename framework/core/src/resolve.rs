@@ -8,6 +8,7 @@ mod bearing_series;
 mod catalogue;
 mod choice;
 mod designation;
+mod follow;
 mod linked_catalogue;
 mod network;
 mod paths;
@@ -118,6 +119,10 @@ pub(crate) struct Draft {
     resolved: Resolved,
     /// Overrides inside a network: they are applied after it is generated.
     inside: Vec<(String, Value)>,
+    /// Paths and formulas of values that follow others.
+    follows: Vec<(String, String)>,
+    /// Patterns of the overrides of the choice.
+    overridden: Vec<String>,
     found: Vec<Diagnostic>,
 }
 
@@ -175,6 +180,8 @@ impl Draft {
                 designations,
             },
             inside,
+            follows: choice.follows.clone(),
+            overridden: choice.overrides.iter().map(|(pattern, _)| pattern.clone()).collect(),
             found,
         }
     }
@@ -189,6 +196,8 @@ impl Draft {
         let Self {
             mut resolved,
             inside,
+            follows,
+            overridden,
             mut found,
         } = self;
         let Resolved { value, sources, .. } = &mut resolved;
@@ -196,9 +205,25 @@ impl Draft {
             (more.iter().enumerate()).partition(|(_, (path, _))| network::meets_inside(path));
         ratings::fill(language, value, more.iter().map(|(path, _)| path.as_str()), &mut found);
         let mut written = apply(language, value, outside.into_iter(), sources, &mut found);
+        let overridden: Vec<&str> = overridden
+            .iter()
+            .chain(more.iter().map(|(pattern, _)| pattern))
+            .map(String::as_str)
+            .collect();
+        let (follows_inside, follows): (Vec<_>, Vec<_>) =
+            follows.iter().partition(|(target, _)| network::meets_inside(target));
+        follow::follow(language, value, follows.into_iter(), &overridden, sources, &mut found);
         if network::expand(language, value, sources, &mut found) {
             apply(language, value, inside.iter().enumerate(), sources, &mut found);
             written.extend(apply(language, value, more_inside.into_iter(), sources, &mut found));
+            follow::follow(
+                language,
+                value,
+                follows_inside.into_iter(),
+                &overridden,
+                sources,
+                &mut found,
+            );
         }
         let resolved = if found.is_empty() { Ok(resolved) } else { Err(found) };
         (resolved, written)

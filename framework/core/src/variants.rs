@@ -128,7 +128,7 @@ impl<'a> Variants<'a> {
     /// Where the numbers of overrides are; `None` if one of them is not a number, or if something else depends on them.
     fn places(&self, resolved: &Resolved, overrides: &[(String, Value)], written: Vec<Written>) -> Option<Vec<Place>> {
         let generated = *resolved.source_of("thermal.network") == ValueSource::Network;
-        if generated || !overrides.iter().all(|(_, value)| value.is_number()) {
+        if generated || !self.choice.follows.is_empty() || !overrides.iter().all(|(_, value)| value.is_number()) {
             return None;
         }
         let place = |(from, path): Written| {

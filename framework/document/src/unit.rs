@@ -35,6 +35,8 @@ pub enum Dimension {
     Energy,
     /// Mass, kg.
     Mass,
+    /// Moment of inertia, kg m2.
+    Inertia,
     /// Density, kg/m3.
     Density,
     /// Kinematic viscosity, m2/s.
@@ -109,6 +111,7 @@ impl Dimension {
             Self::Power => "power",
             Self::Energy => "energy",
             Self::Mass => "mass",
+            Self::Inertia => "moment of inertia",
             Self::Density => "density",
             Self::KinematicViscosity => "kinematic viscosity",
             Self::DynamicViscosity => "dynamic viscosity",
@@ -227,6 +230,8 @@ const UNITS: &[Unit] = &[
     unit("g", Dimension::Mass, 1e-3),
     unit("t", Dimension::Mass, 1e3),
     unit("lb", Dimension::Mass, 0.45359237),
+    unit("kg m2", Dimension::Inertia, 1.0),
+    unit("kg cm2", Dimension::Inertia, 1e-4),
     unit("kg/m3", Dimension::Density, 1.0),
     unit("kg/l", Dimension::Density, 1e3),
     unit("g/cm3", Dimension::Density, 1e3),

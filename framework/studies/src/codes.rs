@@ -22,6 +22,9 @@ gearloss_framework::document::codes! {
     BROKEN_OFF = "E0507", "simulation of a duty cycle stopped early",
         cause: "There is no solution at some time of the duty cycle.",
         help: "The results up to that time are kept; examine the point with `explain`.";
+    OBJECTIVE = "E0521", "invalid objective of a search",
+        cause: "`minimise` names a quantity that the cycles do not have, such as the consumption of a vehicle without a battery.",
+        help: "Describe the battery and the machine, or minimise the mean loss.";
     DATA = "E0601", "invalid measured data",
         cause: "A data file lacks a column, has cells that cannot be read, or has units or accuracies that contradict the study.",
         help: "Correct the file, or its description under `measurements`.";

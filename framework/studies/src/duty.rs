@@ -9,14 +9,14 @@ mod spectrum;
 mod trace;
 mod vehicle;
 
-pub use battery::{Battery, BatteryEntry, Consumption, distance};
+pub use battery::{Battery, BatteryEntry, Consumption, ConsumptionColumn, distance};
 pub use cycle::{CycleEntry, Duty, FileCycleEntry, PhaseEntry, ShippedCycleEntry, SpectrumCycleEntry};
 pub(crate) use spectrum::points;
 pub use spectrum::{Spectrum, SpectrumFile, SpectrumPoint};
 pub use trace::{Sample, Trace};
 pub use vehicle::{
-    CoastDownEntry, NoRegeneration, Regeneration, RegenerationEntry, RoadLoad, STANDARD_GRAVITY, Vehicle, VehicleEntry,
-    input_torque,
+    CoastDownEntry, InertiaEntry, NoRegeneration, Regeneration, RegenerationEntry, RoadLoad, STANDARD_GRAVITY,
+    ShaftInertiaEntry, Vehicle, VehicleEntry, input_torque,
 };
 
 /// Demand on the transmission over an interval; SI.
@@ -31,10 +31,12 @@ pub enum Demand {
     },
     /// Demanded torque at the wheels, negative while braking and before any limit of regeneration, and their speed.
     Wheel {
-        /// Of all driven wheels together. \[Nm\]
+        /// Of all driven wheels together, without the parts of `inertia` of the vehicle. \[Nm\]
         torque: f64,
         /// \[rad/s\]
         speed: f64,
+        /// Acceleration of the vehicle. \[m/s2\]
+        acceleration: f64,
     },
     /// Standstill without load.
     Rest,

@@ -13,6 +13,7 @@ mod names;
 mod parameters;
 mod range;
 mod then;
+mod together;
 mod tolerance;
 mod write;
 
@@ -34,7 +35,9 @@ pub use limits::{LimitEntry, LimitedQuantity, Severity};
 pub use names::is_device;
 pub use parameters::{NameOr, NamesOrParameters, ParameterKey};
 pub use range::RangeEntry;
+
 pub use then::Then;
+pub use together::{Together, joined};
 pub use tolerance::{Shape, ToleranceEntry};
 pub use write::Write;
 
@@ -145,6 +148,11 @@ pub struct Conditions {
     #[serde(default)]
     #[schemars(extend("x-keys" = "path"))]
     pub set: Ordered<Value>,
+    /// Values that follow others in all analyses: resolved path to a formula of numbers and paths, such as `gears.W2.z: "107 - gears.P2.z"`.
+    /// Numbers are in the documented unit of their path. Formulas are evaluated after all changes, in their order.
+    #[serde(default)]
+    #[schemars(extend("x-keys" = "path"))]
+    pub follows: Ordered<Value>,
 }
 
 impl Default for Conditions {
@@ -157,6 +165,7 @@ impl Default for Conditions {
             oil_temperature: None,
             power_flow: PowerFlow::Real,
             set: Ordered::default(),
+            follows: Ordered::default(),
         }
     }
 }

@@ -17,6 +17,9 @@ pub struct Choice {
     pub sets: Map<String, Value>,
     /// Path patterns and values, in the order of application.
     pub overrides: Vec<(String, Value)>,
+    /// Paths and formulas of values that follow others, such as `gears.W2.z` and `107 - gears.P2.z`: evaluated after all overrides, in this
+    /// order, with the numbers of each path in its documented unit.
+    pub follows: Vec<(String, String)>,
 }
 
 impl Choice {

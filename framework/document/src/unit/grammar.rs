@@ -243,6 +243,7 @@ const COMPOUNDS: &[(Dimension, &[Part])] = &[
     (Dimension::Energy, &[Of(ENERGY, 1)]),
     (Dimension::Energy, &[Of(POWER, 1), Times, Of(TIME, 1)]),
     (Dimension::Mass, &[Of(MASS, 1)]),
+    (Dimension::Inertia, &[Of(MASS, 1), Times, Of(LENGTH, 2), Text("2")]),
     (Dimension::Density, &[Of(MASS, 1), Text("/"), Of(VOLUME, -1)]),
     (Dimension::Density, &[Of(MASS, 1), Text("/"), Of(LENGTH, -3), Text("3")]),
     (Dimension::KinematicViscosity, &[Of(KINEMATIC, 1)]),

@@ -126,6 +126,19 @@ fn consumption_text(consumption: &Consumption, page: &mut Page) {
             ", without losses of the motor"
         }
     ));
+    let share = |of: Option<f64>| of.map_or_else(|| "-".to_owned(), |of| format!("{} %", short(100.0 * of)));
+    page.line(format!(
+        "  of it in kWh/100 km: vehicle {}, transmission {}, machine {}, brakes {}, auxiliaries {}, battery {}; system efficiency {}, \
+         recuperated {} of the braking energy",
+        short(consumption.wheels_kwh_per_100_km),
+        short(consumption.transmission_kwh_per_100_km),
+        short(consumption.machine_kwh_per_100_km),
+        short(consumption.brakes_kwh_per_100_km),
+        short(consumption.auxiliaries_kwh_per_100_km),
+        short(consumption.battery_kwh_per_100_km),
+        share(consumption.system_efficiency),
+        share(consumption.recuperated_share)
+    ));
     if consumption.motor_beyond_map {
         page.line("  note: the motor was outside its map, the loss at the edge of the map is used");
     }
@@ -163,6 +176,14 @@ fn band_text(duty: &DutyOfSet, band: &BandOfDuty, page: &mut Page) {
         ));
     }
     page.line(line);
+    if let Some([low, middle, high]) = band.consumption_kwh_per_100_km {
+        page.line(format!(
+            "  consumption {} to {} kWh/100 km (95 %), median {}",
+            short(low),
+            short(high),
+            short(middle)
+        ));
+    }
     if let Some(reason) = &band.first_failure {
         page.line(format!("  {} further samples have no value: {reason}", band.failed));
     }

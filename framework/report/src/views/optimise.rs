@@ -2,7 +2,10 @@
 
 mod summary;
 
-use gearloss_studies::analyses::optimise::{ChangeOfDesign, DesignOfSearch, GainOfCycle, OptimiseOutcome};
+use gearloss_studies::analyses::optimise::{
+    ChangeOfDesign, DesignOfSearch, Minimised, ObjectiveOfSearch, OptimiseOutcome,
+};
+use gearloss_studies::duty::Consumption;
 
 use crate::Figure;
 use crate::names::cycle;
@@ -18,17 +21,13 @@ const PRINTED: usize = 12;
 
 fn show(outcome: &OptimiseOutcome, page: &mut Page) {
     summary::add(outcome, page);
-    let minimised: Vec<&GainOfCycle> = outcome.gains.iter().filter(|gain| gain.minimised).collect();
     variables(outcome, page);
     losses(outcome, page);
-    changes(outcome, &minimised, page);
+    consumptions(outcome, page);
+    changes(outcome, page);
     limits(outcome, page);
-    front(outcome, &minimised, page);
-    let figures = [
-        saved(outcome, &minimised),
-        compromises(outcome, &minimised),
-        progress(outcome, &minimised),
-    ];
+    front(outcome, page);
+    let figures = [saved(outcome), compromises(outcome), progress(outcome)];
     for (name, figure) in figures.into_iter().flatten() {
         page.figure(format!("{}-{name}", outcome.head.analysis), figure);
     }
@@ -76,7 +75,7 @@ fn losses(outcome: &OptimiseOutcome, page: &mut Page) {
         "at 97.5 %",
     ]);
     for gain in &outcome.gains {
-        let band = gain.band.map(|band| band.gain_w);
+        let band = gain.band.map(|band| band.gain());
         table.row(vec![
             gain.cycle.clone(),
             number(Some(gain.present_w), 2),
@@ -90,21 +89,79 @@ fn losses(outcome: &OptimiseOutcome, page: &mut Page) {
     page.table(table);
 }
 
-fn changes(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle], page: &mut Page) {
+/// Where the energy of the vehicle goes, present and best.
+fn consumptions(outcome: &OptimiseOutcome, page: &mut Page) {
+    let mut table = TextTable::new(&[
+        "cycle",
+        "design",
+        "consumption kWh/100 km",
+        "range km",
+        "transmission",
+        "machine",
+        "brakes",
+        "battery",
+        "gain at 2.5 %",
+        "at 97.5 %",
+    ]);
+    let mut any = false;
+    for gain in &outcome.gains {
+        let Some(consumption) = &gain.consumption else { continue };
+        any = true;
+        let objective = outcome
+            .objectives
+            .iter()
+            .find(|objective| objective.cycle == gain.cycle && objective.quantity == Minimised::Consumption);
+        let band = objective.and_then(|objective| objective.band).map(|band| band.gain());
+        let mut row = |design: &str, of: &Consumption, band: Option<[f64; 3]>| {
+            table.row(vec![
+                gain.cycle.clone(),
+                design.to_owned(),
+                number(Some(of.consumption_kwh_per_100_km), 4),
+                number(of.range_km, 1),
+                number(Some(of.transmission_kwh_per_100_km), 4),
+                number(Some(of.machine_kwh_per_100_km), 4),
+                number(Some(of.brakes_kwh_per_100_km), 4),
+                number(Some(of.battery_kwh_per_100_km), 4),
+                number(band.map(|band| band[0]), 4),
+                number(band.map(|band| band[2]), 4),
+            ]);
+        };
+        row("present", &consumption.present, None);
+        if let Some(best) = &consumption.best {
+            row("best", best, band);
+        }
+    }
+    if any {
+        page.table(table.titled("Energy of the vehicle in kWh/100 km"));
+    }
+    for disagreement in &outcome.disagreements {
+        page.line(format!("  {}", summary::disagreement(outcome, disagreement)));
+    }
+}
+
+/// Decimals of an objective in tables.
+fn digits(objective: &ObjectiveOfSearch) -> usize {
+    match objective.quantity {
+        Minimised::MeanLoss => 2,
+        Minimised::Consumption => 4,
+    }
+}
+
+fn changes(outcome: &OptimiseOutcome, page: &mut Page) {
     if outcome.changes.is_empty() {
         return;
     }
     let mut titles = vec!["change".to_owned(), "from".to_owned(), "to".to_owned()];
-    for gain in minimised {
-        titles.push(format!("{} alone W", gain.cycle));
-        titles.push(format!("{} share W", gain.cycle));
+    for objective in &outcome.objectives {
+        titles.push(format!("{} alone {}", objective.cycle, objective.unit));
+        titles.push(format!("{} share {}", objective.cycle, objective.unit));
     }
     let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
     for change in &outcome.changes {
         let mut row = vec![change.variable.clone(), change.from.clone(), change.to.clone()];
-        for i in 0..minimised.len() {
-            let value = |list: &Option<Vec<f64>>| number(list.as_ref().map(|list| list[i]), 2);
-            row.extend([value(&change.alone_w), value(&change.share_w)]);
+        for (i, objective) in outcome.objectives.iter().enumerate() {
+            let value = |list: &Option<Vec<f64>>| number(list.as_ref().map(|list| list[i]), digits(objective));
+            row.extend([value(&change.alone), value(&change.share)]);
         }
         table.row(row);
     }
@@ -136,37 +193,74 @@ fn limits(outcome: &OptimiseOutcome, page: &mut Page) {
     }
 }
 
-/// The designs of a front of several cycles.
-fn front(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle], page: &mut Page) {
-    if minimised.len() < 2 {
+/// The designs of a front of several objectives.
+fn front(outcome: &OptimiseOutcome, page: &mut Page) {
+    if outcome.objectives.len() < 2 {
         return;
     }
-    let mut titles: Vec<&str> = minimised.iter().map(|gain| gain.cycle.as_str()).collect();
-    titles.extend(outcome.variables.iter().map(|variable| variable.variable.as_str()));
-    let mut table = TextTable::new(&titles).titled("Front: mean losses in W, and values");
+    let mut titles: Vec<String> = outcome
+        .objectives
+        .iter()
+        .map(|objective| title(outcome, objective))
+        .collect();
+    titles.extend(outcome.variables.iter().map(|variable| variable.variable.clone()));
+    let heading = if of_losses(outcome) {
+        "Front: mean losses in W, and values"
+    } else {
+        "Front: objectives, and values"
+    };
+    let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
+    let mut table = TextTable::new(&titles).titled(heading);
     let step = outcome.front.len().div_ceil(PRINTED).max(1);
     for design in outcome.front.iter().step_by(step) {
-        let losses = design.mean_losses_w.iter().flatten().map(|loss| number(Some(*loss), 2));
-        table.row(losses.chain(design.values.iter().cloned()).collect());
+        let values = design.objectives.iter().flatten().zip(&outcome.objectives);
+        let values = values.map(|(value, objective)| number(Some(*value), digits(objective)));
+        table.row(values.chain(design.values.iter().cloned()).collect());
     }
     page.table(table);
 }
 
-/// The gain of each change in the first cycle: its band, or its value.
-fn saved(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
-    let of = cycle(&minimised.first()?.cycle);
+/// Whether all objectives are losses.
+fn of_losses(outcome: &OptimiseOutcome) -> bool {
+    let mut objectives = outcome.objectives.iter();
+    objectives.all(|objective| objective.quantity == Minimised::MeanLoss)
+}
+
+/// An objective as the title of a column.
+fn title(outcome: &OptimiseOutcome, objective: &ObjectiveOfSearch) -> String {
+    if of_losses(outcome) {
+        objective.cycle.clone()
+    } else {
+        format!("{} {} {}", objective.cycle, objective.quantity.words(), objective.unit)
+    }
+}
+
+/// An objective as the title of an axis.
+fn axis(objective: &ObjectiveOfSearch) -> String {
+    format!(
+        "{} over {} in {}",
+        objective.quantity.words(),
+        cycle(&objective.cycle),
+        objective.unit
+    )
+}
+
+/// The gain of each change in the first objective: its band, or its value.
+fn saved(outcome: &OptimiseOutcome) -> Option<(&'static str, Figure)> {
+    let objective = outcome.objectives.first()?;
+    let of = cycle(&objective.cycle);
     let interval = |change: &ChangeOfDesign| {
         Some(Interval {
             name: format!("{} {}", change.variable, change.to),
-            at: change.alone_w.as_ref()?[0],
-            ends: change.bands.first().map(|band| [band.gain_w[0], band.gain_w[2]]),
-            before: change.share_w.as_ref().map(|share| share[0]),
+            at: change.alone.as_ref()?[0],
+            ends: change.bands.first().map(|band| [band.gain()[0], band.gain()[2]]),
+            before: change.share.as_ref().map(|share| share[0]),
         })
     };
     let list: Vec<Interval> = outcome.changes.iter().filter_map(interval).collect();
     let figure = Figure::Intervals {
         title: format!("{}: gain of each change alone over {of}", outcome.head.analysis),
-        x: "gain in W".to_owned(),
+        x: format!("gain in {}", objective.unit),
         marks: vec![0.0],
         key: ["gain of the change alone", "its share of the gain of all", "no gain"].map(str::to_owned),
         list: list.clone(),
@@ -174,50 +268,62 @@ fn saved(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'sta
     (!list.is_empty()).then_some(("changes", figure))
 }
 
-/// Losses of two cycles: all designs that keep the limits, and the front.
-fn compromises(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
-    let [first, second, ..] = minimised else { return None };
-    let point = |design: &DesignOfSearch| design.mean_losses_w.as_ref().map(|all| (all[0], all[1]));
+/// Two objectives: all designs that keep the limits, and the front.
+fn compromises(outcome: &OptimiseOutcome) -> Option<(&'static str, Figure)> {
+    let [first, second, ..] = &outcome.objectives[..] else {
+        return None;
+    };
+    let point = |design: &DesignOfSearch| design.objectives.as_ref().map(|all| (all[0], all[1]));
     let kept = outcome.all.iter().filter(|design| design.violation == Some(0.0));
     let line = |name: &str, points: Vec<Option<(f64, f64)>>, stroke| Line {
         name: name.to_owned(),
         points,
         stroke,
     };
+    let is_of_cycles = of_losses(outcome);
     let figure = Figure::Lines {
-        title: format!("{}: front of both cycles", outcome.head.analysis),
-        x: format!("mean loss over {} in W", cycle(&first.cycle)),
-        y: format!("mean loss over {} in W", cycle(&second.cycle)),
+        title: format!(
+            "{}: front of both {}",
+            outcome.head.analysis,
+            if is_of_cycles { "cycles" } else { "objectives" }
+        ),
+        x: axis(first),
+        y: axis(second),
         lines: vec![
             line("designs that keep the limits", kept.map(point).collect(), Stroke::Dots),
             line("front", outcome.front.iter().map(point).collect(), Stroke::Marked),
-            line("present", vec![Some((first.present_w, second.present_w))], Stroke::Dots),
+            line("present", vec![Some((first.present, second.present))], Stroke::Dots),
         ],
     };
     Some(("front", figure))
 }
 
-/// The least loss of the first cycle among the designs so far.
-fn progress(outcome: &OptimiseOutcome, minimised: &[&GainOfCycle]) -> Option<(&'static str, Figure)> {
-    let of = cycle(&minimised.first()?.cycle);
+/// The least value of the first objective among the designs so far.
+fn progress(outcome: &OptimiseOutcome) -> Option<(&'static str, Figure)> {
+    let objective = outcome.objectives.first()?;
+    let of = cycle(&objective.cycle);
+    let quantity = objective.quantity.words();
     let mut least = f64::INFINITY;
     let best = |design: &DesignOfSearch| {
-        let loss = design.mean_losses_w.as_ref()?[0];
+        let value = design.objectives.as_ref()?[0];
         if design.violation == Some(0.0) {
-            least = least.min(loss);
+            least = least.min(value);
         }
         least.is_finite().then_some((design.design as f64, least))
     };
     let points: Vec<Option<(f64, f64)>> = outcome.all.iter().map(best).collect();
     let figure = Figure::Lines {
         title: format!(
-            "{}: least mean loss over {of} among the designs so far",
+            "{}: least {quantity} over {of} among the designs so far",
             outcome.head.analysis
         ),
         x: "designs".to_owned(),
-        y: "mean loss in W".to_owned(),
+        y: format!("{quantity} in {}", objective.unit),
         lines: vec![Line {
-            name: "least loss".to_owned(),
+            name: match objective.quantity {
+                Minimised::MeanLoss => "least loss".to_owned(),
+                Minimised::Consumption => "least consumption".to_owned(),
+            },
             points: points.clone(),
             stroke: Stroke::Line,
         }],

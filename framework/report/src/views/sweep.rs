@@ -1,5 +1,6 @@
 //! A sweep: tables of the loss; figures of loss and efficiency over the values as lines or maps, over names as bars.
 
+mod cycles;
 mod summary;
 
 use gearloss_studies::analyses::numbers::word;
@@ -17,6 +18,12 @@ use crate::{Figure, Map};
 register_view!(SweepOutcome, show);
 
 fn show(outcome: &SweepOutcome, page: &mut Page) {
+    left_out(outcome, page);
+    if !outcome.cycles.is_empty() {
+        page.published(&outcome.published);
+        cycles::show(outcome, page);
+        return;
+    }
     summary::add(outcome, page);
     page.published(&outcome.published);
     let Some(sweep) = Sweep::new(outcome) else {
@@ -35,6 +42,20 @@ fn show(outcome: &SweepOutcome, page: &mut Page) {
         sweep.limits(page);
     }
     designs(outcome, page);
+}
+
+/// Combinations with which the gearbox cannot be built.
+fn left_out(outcome: &SweepOutcome, page: &mut Page) {
+    let Some(first) = outcome.left_out.first() else { return };
+    page.careful.push(format!(
+        "{} of the combinations left out, the first {}: {}",
+        outcome.left_out.len(),
+        first.values,
+        first.reason
+    ));
+    for combination in &outcome.left_out {
+        page.line(format!("left out: {}: {}", combination.values, combination.reason));
+    }
 }
 
 /// Most designs that are compared.
@@ -121,24 +142,44 @@ const QUANTITIES: [Quantity; 2] = [
 impl<'a> Sweep<'a> {
     fn new(outcome: &'a SweepOutcome) -> Option<Self> {
         let first = outcome.sweep.first()?;
-        let values = || outcome.values_of_set(&first.model_set);
-        let along = values().filter(|value| value.places[1] == 0);
-        let seconds = values().filter(|value| value.places[0] == 0);
+        // Combinations may be left out, so the words of a value are those of any with it.
+        let words = |side: usize, word: &dyn Fn(&SweepOfValue) -> Option<String>| -> Vec<String> {
+            let count = outcome
+                .sweep
+                .iter()
+                .map(|value| value.places[side] + 1)
+                .max()
+                .unwrap_or(0);
+            let of = |place| {
+                outcome
+                    .sweep
+                    .iter()
+                    .find(|value| value.places[side] == place)
+                    .and_then(word)
+            };
+            (0..count).filter_map(of).collect()
+        };
         Some(Self {
             outcome,
             name: &outcome.head.analysis,
             path: &first.path,
-            words: along.map(|value| word(&value.value)).collect(),
+            words: words(0, &|value| Some(word(&value.value))),
             second_path: first.second.as_ref().map(|second| second.path.as_str()),
-            second_words: seconds
-                .filter_map(|value| Some(word(&value.second.as_ref()?.value)))
-                .collect(),
+            second_words: words(1, &|value| Some(word(&value.second.as_ref()?.value))),
         })
     }
 
     /// Names of the sets in their order.
     fn sets(&self) -> impl Iterator<Item = &'a str> {
         self.outcome.notes.iter().map(|of_set| of_set.model_set.as_str())
+    }
+
+    /// The points of one set at one combination; absent if it is left out.
+    fn cell(&self, set: &str, places: [usize; 2]) -> Option<&'a SweepOfValue> {
+        self.outcome
+            .sweep
+            .iter()
+            .find(|value| value.model_set == set && value.places == places)
     }
 
     /// The points of one set and one second value, in the order of the first values.
@@ -149,7 +190,10 @@ impl<'a> Sweep<'a> {
 
     /// The loss over the first values at one second value.
     fn table(&self, set: &'a str, second: usize, page: &mut Page) {
-        let values = self.row(set, second);
+        let values: Vec<Option<&SweepOfValue>> = (0..self.words.len()).map(|i| self.cell(set, [i, second])).collect();
+        let Some(first) = values.iter().flatten().next() else {
+            return;
+        };
         let beside = match (self.second_path, self.second_words.get(second)) {
             (Some(path), Some(word)) => format!(", {path} {word}"),
             _ => String::new(),
@@ -161,9 +205,13 @@ impl<'a> Sweep<'a> {
         let mut titles = vec!["torque Nm", "speed rpm"];
         titles.extend(self.words.iter().map(String::as_str));
         let mut table = TextTable::new(&titles);
-        for (i, point) in values[0].points.iter().enumerate() {
+        for (i, point) in first.points.iter().enumerate() {
             let mut row = vec![format!("{}", point.torque_nm), fixed(point.solved_speed_rpm, 0)];
-            row.extend(values.iter().map(|value| number(value.points[i].loss_w, 2)));
+            row.extend(
+                values
+                    .iter()
+                    .map(|value| number(value.and_then(|value| value.points[i].loss_w), 2)),
+            );
             table.row(row);
         }
         page.table(table);
@@ -372,9 +420,11 @@ impl<'a> Sweep<'a> {
     fn maps(&self, second_path: &str, (quantity, unit, best, read): Quantity) -> Vec<Map> {
         let mut maps = Vec::new();
         for set in self.sets() {
-            for (i, point) in self.row(set, 0)[0].points.iter().enumerate() {
-                let values = self.outcome.values_of_set(set);
-                let values: Vec<Option<f64>> = values.map(|value| read(&value.points[i])).collect();
+            let points = self.outcome.sweep.iter().find(|value| value.model_set == set);
+            for (i, point) in points.map_or(&[][..], |value| &value.points).iter().enumerate() {
+                let places = (0..self.second_words.len()).flat_map(|k| (0..self.words.len()).map(move |i| [i, k]));
+                let value = |places| self.cell(set, places).and_then(|value| read(&value.points[i]));
+                let values: Vec<Option<f64>> = places.map(value).collect();
                 if values.iter().any(Option::is_some) {
                     maps.push(Map {
                         title: format!(
@@ -397,7 +447,7 @@ impl<'a> Sweep<'a> {
 }
 
 /// Values as numbers without their unit; nothing if one of them is a name.
-fn numbers(words: &[String]) -> Option<Vec<f64>> {
+pub(super) fn numbers(words: &[String]) -> Option<Vec<f64>> {
     words.iter().map(|word| word.split(' ').next()?.parse().ok()).collect()
 }
 

@@ -211,7 +211,7 @@ impl Analysis for CycleAnalysisEntry {
         let driven = plan.drive.drive(engine)?;
         let mut cycles = Vec::new();
         for ((b, limits), driven) in built.iter().zip(&plan.limits).zip(&driven) {
-            note_limits(engine, b, limits, duties, driven)?;
+            limited_in_cycles(engine, b, limits, duties, driven)?;
             engine.weigh_model_error(&b.name, &energies_of_parts(driven));
             cycles.extend(self.results(engine, b, duties, driven, &names)?);
         }
@@ -323,16 +323,16 @@ fn range_differences(cycles: &mut [DutyOfSet], count: usize) {
     }
 }
 
-/// Notes what the limits of the study reach in the cycles of a set.
-fn note_limits(
+/// Notes what the limits of the study reach in the cycles of a set; returns the limited values by cycle, in the order of the limits.
+pub fn limited_in_cycles(
     engine: &Engine<'_>,
     b: &Built<'_>,
     limits: &[Limit],
     duties: &Duties<'_>,
     driven: &[Driven],
-) -> Result<(), Stopped> {
+) -> Result<Vec<Vec<Option<f64>>>, Stopped> {
     if limits.is_empty() {
-        return Ok(());
+        return Ok(vec![Vec::new(); driven.len()]);
     }
     let t = &b.transmission;
     let mut rated = Vec::new();
@@ -342,9 +342,13 @@ fn note_limits(
             rated.push(ratings_over_cycle.map_err(|list| b.gearbox.findings(list))?);
         }
     }
-    let driven: Vec<&Driven> = driven.iter().collect();
-    engine.note_limits(&b.name, limits, reached(limits, duties, t, &driven, &rated));
-    Ok(())
+    let whole: Vec<&Driven> = driven.iter().collect();
+    engine.note_limits(&b.name, limits, reached(limits, duties, t, &whole, &rated));
+    let in_cycle = |(k, driven): (usize, &Driven)| {
+        let value = |limit: &Limit| limit.in_cycle(duties, t, (k, driven), &rated).filter(|x| x.is_finite());
+        limits.iter().map(value).collect()
+    };
+    Ok(driven.iter().enumerate().map(in_cycle).collect())
 }
 
 /// Why the first cycle that did not reach its end stopped.

@@ -40,6 +40,8 @@ pub struct Duties<'a> {
     /// The cycles.
     pub list: Vec<Read>,
     vehicle: Option<Vehicle>,
+    /// Its name in the study.
+    vehicle_id: &'a str,
     /// Battery of the vehicle with its motor.
     battery: Option<Battery>,
     entry: &'a RideEntry,
@@ -88,6 +90,29 @@ impl<'a> DrivePlan<'a> {
     }
 }
 
+impl DrivePlan<'_> {
+    /// Refuses cycles of which one broke off.
+    ///
+    /// # Errors
+    /// There.
+    pub fn refuse_broken(&self, engine: &Engine<'_>, driven: &[Vec<Driven>]) -> Result<(), Stopped> {
+        for (b, driven_of_set) in self.built.iter().zip(driven) {
+            for (read, driven) in self.duties.list.iter().zip(driven_of_set) {
+                let Some((time, why)) = &driven.broken else { continue };
+                let message = format!(
+                    "`{}` could not be simulated with `{}` beyond {time} s: {}",
+                    read.name,
+                    b.name,
+                    reason(&b.transmission, why)
+                );
+                let help = "examine the point with `explain`";
+                return Err(engine.wrong_as(codes::BROKEN_OFF, &engine.path(), message, help));
+            }
+        }
+        Ok(())
+    }
+}
+
 impl Plan for DrivePlan<'_> {
     fn work(&self) -> Vec<Work> {
         let work = |b: &Arc<Built<'_>>| Work::new(&b.name, "cycle", self.duties.list.len());
@@ -109,7 +134,7 @@ impl<'a> Duties<'a> {
             let message = format!("the study has several vehicles: {}", names.join(", "));
             return Err(cx.wrong_as(codes::DUTY, path, message, "select one, such as `vehicle: car`"));
         }
-        let vehicle_id = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
+        let vehicle_id: Option<&'a str> = entry.vehicle.as_deref().or_else(|| study.vehicles.ids().next());
         let vehicle = vehicle_id.and_then(|id| Some((id, study.vehicles.get(id)?)));
         let vehicle = vehicle.and_then(|(id, vehicle)| {
             let read = vehicle.vehicle(&format!("vehicles.{id}"));
@@ -185,11 +210,28 @@ impl<'a> Duties<'a> {
         Ok(Self {
             list,
             vehicle,
+            vehicle_id: vehicle_id.unwrap_or_default(),
             battery,
             entry,
             gear: gear.map(String::as_str),
             conditions: &study.conditions,
         })
+    }
+
+    /// Whether the consumption over a cycle is known: there are a battery and the speed of the vehicle.
+    pub fn has_consumption(&self, cycle: usize) -> bool {
+        let mut intervals = self.list[cycle].intervals.iter();
+        self.battery.is_some() && intervals.all(|interval| interval.given.vehicle_speed.is_some())
+    }
+
+    /// Whether the losses of a machine are described: in the thermal network, or by a map of the vehicle.
+    pub fn has_machine(&self, t: &Transmission) -> bool {
+        let in_network = || {
+            let oil = OilTemperature::from_conditions(t, self.conditions.oil_temperature);
+            let network = t.network().filter(|_| oil == OilTemperature::Network);
+            network.is_some_and(|network| network.motors().next().is_some())
+        };
+        self.battery.as_ref().is_some_and(|battery| battery.motor.is_some()) || in_network()
     }
 
     /// Energy of the vehicle over a simulated cycle; absent without a battery or without distance.
@@ -201,6 +243,14 @@ impl<'a> Duties<'a> {
     /// Reasons why the cycles cannot be simulated with a gearbox.
     pub fn check(&self, cx: &Planner<'_>, path: &str, b: &Built<'_>) -> Result<(), Stopped> {
         let oil = OilTemperature::from_conditions(&b.transmission, self.conditions.oil_temperature);
+        let shafts = self.vehicle.as_ref().and_then(|vehicle| vehicle.inertia.as_ref());
+        let members: Vec<&str> = b.transmission.members().iter().map(String::as_str).collect();
+        let shafts = shafts.map_or_else(Vec::new, |inertia| inertia.shafts.ids().collect());
+        if let Some(unknown) = shafts.iter().find(|shaft| !members.contains(shaft)) {
+            let at = format!("vehicles.{}.inertia.shafts", self.vehicle_id);
+            let error = gearloss_framework::attach::dangling(&at, "shaft", unknown, &members);
+            return Err(cx.study.findings(vec![error]).into());
+        }
         // A fixed temperature replaces the network with its motors.
         let motors = b.transmission.network().filter(|_| oil == OilTemperature::Network);
         let has_motor = motors.is_some_and(|network| network.motors().next().is_some());
@@ -364,6 +414,8 @@ pub struct MeanLoss {
     pub loss: f64,
     /// The same by share. \[W\]
     pub shares: Vec<f64>,
+    /// Energy of the vehicle; absent without a battery or without distance.
+    pub consumption: Option<Consumption>,
 }
 
 /// Why a transmission has no mean losses of the cycles.
@@ -422,22 +474,29 @@ impl Duties<'_> {
         by: By,
         names: &[String],
     ) -> Result<(Vec<MeanLoss>, Left), Unfinished> {
-        Ok(mean_losses_of(t, &self.drive_all(engine, t)?, by, names))
+        Ok(self.mean_losses_of(t, &self.drive_all(engine, t)?, by, names))
     }
-}
 
-/// Mean losses of driven cycles, as [`Duties::mean_losses`].
-pub fn mean_losses_of(t: &Transmission, driven: &[Driven], by: By, names: &[String]) -> (Vec<MeanLoss>, Left) {
-    let shares = Shares::new(t, by).under(names);
-    let mean = |driven: &Driven| {
-        let time = driven.total.duration;
-        MeanLoss {
-            loss: driven.total.parts.iter().sum::<f64>() / time,
-            shares: shares.sums(&driven.total.parts).iter().map(|x| x / time).collect(),
-        }
-    };
-    let seen = driven.iter().flat_map(|cycle| left(t, &cycle.seen));
-    (driven.iter().map(mean).collect(), seen.collect())
+    /// Mean losses of driven cycles, as [`Duties::mean_losses`].
+    pub fn mean_losses_of(
+        &self,
+        t: &Transmission,
+        driven: &[Driven],
+        by: By,
+        names: &[String],
+    ) -> (Vec<MeanLoss>, Left) {
+        let shares = Shares::new(t, by).under(names);
+        let mean = |driven: &Driven| {
+            let time = driven.total.duration;
+            MeanLoss {
+                loss: driven.total.parts.iter().sum::<f64>() / time,
+                shares: shares.sums(&driven.total.parts).iter().map(|x| x / time).collect(),
+                consumption: self.consumption(t, driven),
+            }
+        };
+        let seen = driven.iter().flat_map(|cycle| left(t, &cycle.seen));
+        (driven.iter().map(mean).collect(), seen.collect())
+    }
 }
 
 /// Rejects sums by the terms of models, because energies of cycles are stored by component only.
@@ -470,7 +529,7 @@ fn battery_of(cx: &Planner<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Op
         return Ok(Some(Battery {
             entry,
             motor: None,
-            fixed_efficiency: vehicle.efficiency.is_some(),
+            fixed_efficiency: vehicle.efficiency,
         }));
     };
     let (at, file) = (format!("{path}.motor_map"), map.name());
@@ -484,6 +543,6 @@ fn battery_of(cx: &Planner<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Op
     Ok(Some(Battery {
         entry,
         motor: Some(motor),
-        fixed_efficiency: vehicle.efficiency.is_some(),
+        fixed_efficiency: vehicle.efficiency,
     }))
 }

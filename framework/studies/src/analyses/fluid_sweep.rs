@@ -11,12 +11,13 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::swept::Swept;
-use super::duties::{DrivePlan, Duties, MeanLoss, Unfinished, mean_losses_of, sums_energies};
+use super::duties::{DrivePlan, Duties, MeanLoss, Unfinished, sums_energies};
 use super::limits::over_cycles::{built, limits_of, note_proposed, values, violation};
 use super::limits::{Limit, LimitRecord};
 use super::shares::together;
 use super::trial::{Left, Trial};
 use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
+use crate::duty::Consumption;
 use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, LimitEntry, Uses, Write};
@@ -121,6 +122,8 @@ pub struct PresentOil {
     pub value: Option<f64>,
     /// Mean loss of the transmission. [W]
     pub mean_loss_w: f64,
+    /// Energy of the vehicle; absent without a battery or without distance.
+    pub consumption: Option<Consumption>,
 }
 
 /// The oil with the least loss that keeps all limits.
@@ -141,6 +144,8 @@ pub struct LossOfFluid {
     pub mean_loss_w: f64,
     /// The same by share, in the order of the names. [W]
     pub mean_losses_w: Vec<f64>,
+    /// Energy of the vehicle; absent without a battery or without distance.
+    pub consumption: Option<Consumption>,
     /// True if the property is not defined: viscosity index below 2 mm2/s.
     pub beyond_definition: bool,
     /// True if the value was added by the search for the minimum loss.
@@ -176,8 +181,8 @@ struct Search<'a> {
     label: String,
     /// Ascending by value.
     fluids: Vec<Fluid>,
-    /// Mean loss of each cycle with the oil as described, and its limited quantities. [W]
-    present: (Vec<f64>, Vec<f64>),
+    /// Results of each cycle with the oil as described, and its limited quantities.
+    present: (Vec<MeanLoss>, Vec<f64>),
     left: Left,
 }
 
@@ -293,7 +298,7 @@ impl Search<'_> {
         let losses = self.engine.jobs(&self.label, 1, |_| Ok(self.mean_losses(Vec::new())))?;
         for result in losses {
             let (losses, limited, _) = result.map_err(|reason| failed(self.engine, "the oil as described", &reason))?;
-            self.present = (losses.iter().map(|mean| mean.loss).collect(), limited);
+            self.present = (losses, limited);
         }
         Ok(())
     }
@@ -321,7 +326,7 @@ impl Search<'_> {
         let (t, ratings) = built(&self.trial, self.limits, overrides)?;
         let driven = self.duties.drive_all(self.engine, &t).map_err(Unfinished::text)?;
         let limited = values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?;
-        let (losses, left) = mean_losses_of(&t, &driven, self.entry.by, self.names);
+        let (losses, left) = self.duties.mean_losses_of(&t, &driven, self.entry.by, self.names);
         Ok((losses, limited, left))
     }
 
@@ -375,6 +380,7 @@ impl Search<'_> {
                 value: f.value,
                 mean_loss_w: f.losses[k].loss,
                 mean_losses_w: f.losses[k].shares.clone(),
+                consumption: f.losses[k].consumption,
                 beyond_definition: self.swept.is_beyond(f.value),
                 refined: f.refined,
                 limited: f.limited.iter().map(|x| Some(*x).filter(|x| x.is_finite())).collect(),
@@ -399,7 +405,8 @@ impl Search<'_> {
                     least_within_limits: self.least_within_limits(k),
                     present: PresentOil {
                         value: self.swept.present(),
-                        mean_loss_w: self.present.0[k],
+                        mean_loss_w: self.present.0[k].loss,
+                        consumption: self.present.0[k].consumption,
                     },
                     fluids: self.fluids.iter().map(loss(k)).collect(),
                 })
@@ -431,6 +438,7 @@ impl Outcome for FluidSweepOutcome {
                 rows.extend(duty.fluids.iter().map(|fluid| (set, duty, fluid)));
             }
         }
+        let has_consumption = rows.iter().any(|(.., fluid)| fluid.consumption.is_some());
         let table = Table::of(&self.head.analysis, rows)
             .text("model_set", "Model set", |(set, ..)| &set.model_set)
             .text("cycle", "Duty cycle", |(_, duty, _)| &duty.cycle)
@@ -440,6 +448,14 @@ impl Outcome for FluidSweepOutcome {
                 let meaning = format!("Mean loss of the share {share}");
                 table.number(format!("{share}_w"), "W", meaning, |(.., fluid)| fluid.mean_losses_w[i])
             })
+            .each(
+                Consumption::COLUMNS.iter().filter(|_| has_consumption),
+                |table, column| {
+                    table.number(column.name, column.unit, column.meaning, |(.., fluid)| {
+                        fluid.consumption.as_ref().and_then(column.read)
+                    })
+                },
+            )
             .each(limits.iter().enumerate(), |table, (i, limit)| {
                 let meaning = format!("{} over all cycles", limit.quantity);
                 table.number(

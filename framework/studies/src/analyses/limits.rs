@@ -88,7 +88,26 @@ pub struct Scope<'a> {
     pub cycles: Option<&'a [&'a str]>,
 }
 
+/// Units of the quantities of a vehicle, which have no other dimension in documents.
+static CONSUMPTION: Unit = plain("kWh/100 km");
+static RANGE: Unit = plain("km");
+
+const fn plain(symbol: &'static str) -> Unit {
+    Unit {
+        symbol,
+        dimension: Dimension::None,
+        factor: 1.0,
+        offset: 0.0,
+    }
+}
+
 impl Scope<'_> {
+    /// Whether a vehicle of the study has a battery.
+    fn has_battery(&self) -> bool {
+        let mut vehicles = self.study.entry.vehicles.iter();
+        vehicles.any(|(_, vehicle)| vehicle.battery.is_some())
+    }
+
     fn wrong(&self, path: &str, message: impl Into<String>, help: &str) -> Findings {
         self.found(Diagnostic::error(path, message.into()).help(help).code(codes::ANALYSIS))
     }
@@ -142,15 +161,28 @@ impl Limit {
             (_, None) => None,
         };
         let symbol = rated.map_or(entry.quantity.unit(), |(_, figure)| figure.unit);
-        let unit = Unit::of_symbol(symbol).unwrap_or(Unit::ONE);
+        let unit = Unit::of_symbol(symbol).unwrap_or(match entry.quantity {
+            LimitedQuantity::Consumption => &CONSUMPTION,
+            LimitedQuantity::Range => &RANGE,
+            _ => Unit::ONE,
+        });
         let of = &format!("{path}.of");
         let of = match (entry.quantity, entry.of.as_deref()) {
             (LimitedQuantity::Temperature, Some(node)) if !entry.is_of_oil() => {
                 Owner::Node(known_node(scope, of, node)?)
             }
             (LimitedQuantity::Temperature, _) => Owner::Oil,
-            (LimitedQuantity::MeanLoss, None) => Owner::AllCycles,
-            (LimitedQuantity::MeanLoss, Some(name)) => known_cycle(scope, of, name)?,
+            (LimitedQuantity::Consumption | LimitedQuantity::Range, _) if !scope.has_battery() => {
+                let message = "consumption and range need a vehicle with a battery";
+                let help = "add `vehicles: { car: { ..., battery: { energy: 60 kWh, efficiency: 0.95 } } }`";
+                return Err(scope.wrong(path, message, help));
+            }
+            (LimitedQuantity::MeanLoss | LimitedQuantity::Consumption | LimitedQuantity::Range, None) => {
+                Owner::AllCycles
+            }
+            (LimitedQuantity::MeanLoss | LimitedQuantity::Consumption | LimitedQuantity::Range, Some(name)) => {
+                known_cycle(scope, of, name)?
+            }
             (LimitedQuantity::Loss | LimitedQuantity::Efficiency, None) => Owner::Gearbox,
             (LimitedQuantity::Loss | LimitedQuantity::Efficiency, Some(_)) => {
                 return Err(scope.wrong(of, "a loss and an efficiency are those of the gearbox", "delete `of`"));
@@ -328,7 +360,17 @@ fn known_rating(scope: Scope<'_>, path: &str, written: &str) -> Result<(&'static
 fn quantity(written: &Value, unit: &'static Unit) -> Result<f64, String> {
     let number = match written {
         Value::Number(x) => x.as_f64(),
-        Value::String(text) => Some(unit.from_si(parse_quantity(text, unit).map_err(|fault| fault.message)?)),
+        Value::String(text) => {
+            // Units of quantities of a vehicle are known here alone.
+            let plain = text
+                .trim()
+                .strip_suffix(unit.symbol)
+                .filter(|_| unit.dimension == Dimension::None);
+            match plain.and_then(|number| number.trim().parse().ok()) {
+                Some(number) => Some(number),
+                None => Some(unit.from_si(parse_quantity(text, unit).map_err(|fault| fault.message)?)),
+            }
+        }
         _ => None,
     };
     let number = number.filter(|x| x.is_finite());
@@ -343,6 +385,8 @@ fn words(entry: &LimitEntry, figure: Option<Figure>) -> String {
         LimitedQuantity::Loss => "loss".to_owned(),
         LimitedQuantity::Efficiency => "efficiency".to_owned(),
         LimitedQuantity::MeanLoss => format!("mean loss over {}", of("every cycle")),
+        LimitedQuantity::Consumption => format!("consumption over {}", of("every cycle")),
+        LimitedQuantity::Range => format!("range over {}", of("every cycle")),
         LimitedQuantity::Ratio => format!("ratio of gear {}", of("1")),
         LimitedQuantity::Rating => {
             let of = entry.of.as_ref().map_or_else(String::new, |of| format!(" of {of}"));

@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 
+use crate::study::joined;
+
 /// Factor from rad/s to 1/min.
 pub const RPM: f64 = 30.0 / std::f64::consts::PI;
 
@@ -21,9 +23,15 @@ pub fn tidy(x: f64) -> f64 {
     (x * digits).round() / digits
 }
 
-/// A bound value as written.
+/// A bound value as written; values that belong together as `24/83`.
 pub fn word(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Array(row) if row.iter().all(|value| value.is_number() || value.is_string()) => {
+            joined(row.iter().map(word))
+        }
+        _ => value.to_string(),
+    }
 }
 
 /// At most `shown` of `count` indices, evenly spread, with both ends.

@@ -3,6 +3,7 @@
 mod band;
 mod changes;
 mod drives;
+mod objectives;
 mod outcome;
 mod search;
 mod variables;
@@ -12,18 +13,21 @@ use gearloss_framework::resolve::matches;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use objectives::{Minimised, ObjectiveEntry, QuantityEntry};
 pub use outcome::{
-    BandOfGain, ChangeOfDesign, DesignOfSearch, GainOfCycle, LimitOfSearch, OptimiseOutcome, VariableOfSearch,
+    BandOfGain, ChangeOfDesign, ConsumptionOfSearch, DesignOfDisagreement, DesignOfSearch, Disagreement,
+    FailureOfSearch, GainOfCycle, LimitOfSearch, ObjectiveOfSearch, OptimiseOutcome, VariableOfSearch,
 };
 pub use variables::{Scale, VariableEntry};
 
 use self::drives::Drives;
+use self::objectives::Objective;
 use self::search::Search;
 use self::variables::Variable;
 use super::duties::{DrivePlan, Duties};
 use super::inputs::Input;
 use super::limits::Limit;
-use super::limits::over_cycles::{cycle, limits_of};
+use super::limits::over_cycles::limits_of;
 use super::model_error::ModelErrorEntry;
 use super::trial::Trial;
 use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work};
@@ -42,10 +46,11 @@ pub struct OptimiseEntry {
     /// Variables by name.
     #[schemars(length(min = 1, max = 64))]
     pub variables: Ordered<VariableEntry>,
-    /// Cycles whose mean losses are minimised; default: all. The others are for limits.
+    /// What is minimised: the mean loss over a cycle by its name, or a quantity of it, such as `{ quantity: consumption, of: wltc }`.
+    /// Default: the consumption over every cycle if the study describes a machine and a battery, otherwise the mean loss. Other cycles
+    /// are for limits.
     #[serde(default)]
-    #[schemars(extend("x-refers-to" = "cycles"))]
-    pub minimise: Vec<String>,
+    pub minimise: Vec<ObjectiveEntry>,
     /// Limits by name, which a design must keep.
     #[serde(default)]
     pub limits: Ordered<LimitEntry>,
@@ -97,8 +102,7 @@ register_analysis!(OptimiseEntry);
 pub struct OptimisePlan<'a> {
     drive: DrivePlan<'a>,
     variables: Vec<Variable>,
-    /// Cycles whose mean loss is minimised.
-    objectives: Vec<usize>,
+    objectives: Vec<Objective>,
     limits: Vec<Limit>,
     inputs: Vec<Input>,
     designs: usize,
@@ -138,7 +142,8 @@ impl Analysis for OptimiseEntry {
         let drive = DrivePlan::new(cx, &path, duties, cx.built(gearbox, &self.drive.model_sets)?)?;
         let b = &drive.built[0];
         let variables = Variable::all(cx, &path, &self.variables, b)?;
-        let objectives = self.objectives(cx, &drive.duties)?;
+        let has_machine = drive.duties.has_machine(&b.transmission);
+        let objectives = Objective::all(cx, &self.minimise, &drive.duties, has_machine)?;
         let limits = limits_of(cx, &path, &self.limits, &drive.duties, b)?;
         let mut inputs = Input::all(cx, &path, &self.inputs, b)?;
         let own = inputs.len();
@@ -206,15 +211,4 @@ fn same_laws(cx: &Planner<'_>, b: &Built<'_>, variables: &[Variable], errors: &[
         }
     }
     Ok(())
-}
-
-impl OptimiseEntry {
-    /// Indices of the cycles that are minimised.
-    fn objectives(&self, cx: &Planner<'_>, duties: &Duties<'_>) -> Result<Vec<usize>, Stopped> {
-        if self.minimise.is_empty() {
-            return Ok((0..duties.list.len()).collect());
-        }
-        let index = |(i, name): (usize, &String)| cycle(cx, &format!("{}.minimise.{i}", cx.path()), name, duties);
-        self.minimise.iter().enumerate().map(index).collect()
-    }
 }

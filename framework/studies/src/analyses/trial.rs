@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use crate::points::{GridResult, OilTemperature, OnRig, PointResult, Points, Rows, SolvedRows, notes, run_grid};
 use gearloss_framework::evaluate::Ratings;
+use gearloss_framework::language::Language;
 use gearloss_framework::loss::Extent;
+use gearloss_framework::resolve::{lookup, matches};
 use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
 use serde_json::Value;
@@ -17,6 +19,7 @@ pub type Left = BTreeSet<(String, String)>;
 
 /// Data for rebuilding.
 pub struct Trial<'a> {
+    language: &'a Language,
     study: &'a Study,
     variants: Variants<'a>,
 }
@@ -25,6 +28,7 @@ impl<'a> Trial<'a> {
     /// For a gearbox with a set.
     pub fn new(cx: &Planner<'a>, built: &'a Built<'_>) -> Self {
         Self {
+            language: cx.language,
             study: cx.study,
             variants: Variants::new(cx.language, built.gearbox, cx.study.choice(built.set())),
         }
@@ -34,6 +38,23 @@ impl<'a> Trial<'a> {
     pub fn build(&self, overrides: impl IntoIterator<Item = (String, Value)>) -> Result<Transmission, String> {
         let overrides: Vec<(String, Value)> = overrides.into_iter().collect();
         self.variants.build(&overrides).map_err(|findings| findings.first())
+    }
+
+    /// The values that follow others by a formula of the study with overrides: path and number in the unit of the path.
+    pub fn followed(&self, overrides: &[(String, Value)]) -> Result<Vec<(String, Value)>, String> {
+        if self.study.entry.conditions.follows.is_empty() {
+            return Ok(Vec::new());
+        }
+        let resolved = self.variants.resolve(overrides).map_err(|findings| findings.first())?;
+        let follows = self.study.entry.conditions.follows.ids();
+        let paths = follows.flat_map(|target| matches(&resolved.value, target));
+        let value = |path: String| {
+            let value = lookup(&resolved.value, &path)?.clone();
+            let unit = self.language.number_at(&resolved.value, &path);
+            let number = unit.and_then(|(unit, ..)| Some(Value::from(unit.from_si(value.as_f64()?))));
+            Some((path, number.unwrap_or(value)))
+        };
+        Ok(paths.filter_map(value).collect())
     }
 
     /// The same with the ratings of its components.

@@ -31,12 +31,12 @@ pub struct Battery {
     pub entry: BatteryEntry,
     /// Losses of the motor at the reference port, if the thermal network has no motor.
     pub motor: Option<MotorMap>,
-    /// True if a fixed efficiency of the vehicle replaces the losses of the transmission.
-    pub fixed_efficiency: bool,
+    /// The fixed efficiency of the vehicle, if it replaces the losses of the transmission. \[-\]
+    pub fixed_efficiency: Option<f64>,
 }
 
-/// Energy of a vehicle over a cycle.
-#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+/// Energy of a vehicle over a cycle: of the unit of gearbox, machine and battery. Every analysis of cycles has these quantities from here.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Consumption {
     /// Energy drawn from the battery. [kWh/100 km]
     pub drawn_kwh_per_100_km: f64,
@@ -44,6 +44,24 @@ pub struct Consumption {
     pub recuperated_kwh_per_100_km: f64,
     /// The difference: consumption. [kWh/100 km]
     pub consumption_kwh_per_100_km: f64,
+    /// Part of the consumption that moves the vehicle: energy at the wheels while driving, minus that while braking. [kWh/100 km]
+    pub wheels_kwh_per_100_km: f64,
+    /// Loss of the transmission. [kWh/100 km]
+    pub transmission_kwh_per_100_km: f64,
+    /// Loss of the machine, with the inverter if its map contains it. [kWh/100 km]
+    pub machine_kwh_per_100_km: f64,
+    /// Energy dissipated in the brakes. [kWh/100 km]
+    pub brakes_kwh_per_100_km: f64,
+    /// Energy of the auxiliaries. [kWh/100 km]
+    pub auxiliaries_kwh_per_100_km: f64,
+    /// Loss of the battery and of everything else that its efficiencies contain. [kWh/100 km]
+    pub battery_kwh_per_100_km: f64,
+    /// What the consumption differs from the sum of its parts, relative to the energy that was drawn and recuperated. [-]
+    pub residual_share: f64,
+    /// Energy at the wheels over electric energy of the machine, while it drives; absent if it never does. [-]
+    pub system_efficiency: Option<f64>,
+    /// Energy recuperated into the battery over the energy at the wheels while they brake; absent if they never do. [-]
+    pub recuperated_share: Option<f64>,
     /// True if losses of a motor are part of it.
     pub includes_motor: bool,
     /// True if a motor was outside its map.
@@ -54,6 +72,101 @@ pub struct Consumption {
     pub range_lost_in_transmission_km: Option<f64>,
     /// Range minus that of the first model set in the same cycle; absent for the first. [km]
     pub range_difference_km: Option<f64>,
+}
+
+/// A quantity of the vehicle as a column of tables.
+pub struct ConsumptionColumn {
+    /// Name.
+    pub name: &'static str,
+    /// Unit.
+    pub unit: &'static str,
+    /// Meaning.
+    pub meaning: &'static str,
+    /// Its value.
+    pub read: fn(&Consumption) -> Option<f64>,
+}
+
+const PER_DISTANCE: &str = "kWh/100 km";
+
+const fn column(
+    name: &'static str,
+    unit: &'static str,
+    meaning: &'static str,
+    read: fn(&Consumption) -> Option<f64>,
+) -> ConsumptionColumn {
+    ConsumptionColumn {
+        name,
+        unit,
+        meaning,
+        read,
+    }
+}
+
+impl Consumption {
+    /// The quantities as columns of tables of every analysis.
+    pub const COLUMNS: [ConsumptionColumn; 12] = [
+        column(
+            "consumption_kwh_per_100_km",
+            PER_DISTANCE,
+            "Energy from the battery, drawn minus recuperated",
+            |c| Some(c.consumption_kwh_per_100_km),
+        ),
+        column("range_km", "km", "Range with the usable energy", |c| c.range_km),
+        column(
+            "drawn_kwh_per_100_km",
+            PER_DISTANCE,
+            "Energy drawn from the battery",
+            |c| Some(c.drawn_kwh_per_100_km),
+        ),
+        column(
+            "recuperated_kwh_per_100_km",
+            PER_DISTANCE,
+            "Energy recuperated into the battery",
+            |c| Some(c.recuperated_kwh_per_100_km),
+        ),
+        column(
+            "wheels_kwh_per_100_km",
+            PER_DISTANCE,
+            "Energy that moves the vehicle",
+            |c| Some(c.wheels_kwh_per_100_km),
+        ),
+        column(
+            "transmission_kwh_per_100_km",
+            PER_DISTANCE,
+            "Loss of the transmission",
+            |c| Some(c.transmission_kwh_per_100_km),
+        ),
+        column("machine_kwh_per_100_km", PER_DISTANCE, "Loss of the machine", |c| {
+            Some(c.machine_kwh_per_100_km)
+        }),
+        column(
+            "brakes_kwh_per_100_km",
+            PER_DISTANCE,
+            "Energy dissipated in the brakes",
+            |c| Some(c.brakes_kwh_per_100_km),
+        ),
+        column(
+            "auxiliaries_kwh_per_100_km",
+            PER_DISTANCE,
+            "Energy of the auxiliaries",
+            |c| Some(c.auxiliaries_kwh_per_100_km),
+        ),
+        column("battery_kwh_per_100_km", PER_DISTANCE, "Loss of the battery", |c| {
+            Some(c.battery_kwh_per_100_km)
+        }),
+        column(
+            "system_efficiency",
+            "-",
+            "Energy at the wheels over electric energy of the machine, while it drives",
+            |c| c.system_efficiency,
+        ),
+        column(
+            "recuperated_share",
+            "-",
+            "Energy into the battery over the braking energy at the wheels",
+            |c| c.recuperated_share,
+        ),
+    ];
 }
 
 /// 1 kWh/100 km. \[J/m\]
@@ -82,6 +195,57 @@ impl Energies {
     }
 }
 
+/// Energies of an interval. \[J\]
+struct Moment {
+    /// Of the machine into the transmission.
+    shaft: f64,
+    motor: f64,
+    loss: f64,
+    /// What moves the vehicle: from the transmission, minus that of the brakes.
+    wheels: f64,
+    brakes: f64,
+    auxiliaries: f64,
+}
+
+/// Where the energy of the battery goes. \[J\]
+#[derive(Default)]
+struct Parts {
+    motor: f64,
+    loss: f64,
+    wheels: f64,
+    brakes: f64,
+    auxiliaries: f64,
+    /// At the terminals of the battery.
+    electric: f64,
+    /// Of the machine while it drives, and then at the wheels.
+    electric_drive: f64,
+    wheels_drive: f64,
+    /// At the wheels while they brake, positive.
+    wheels_brake: f64,
+}
+
+impl Parts {
+    fn add(&mut self, moment: &Moment) {
+        self.motor += moment.motor;
+        self.loss += moment.loss;
+        self.wheels += moment.wheels;
+        self.brakes += moment.brakes;
+        self.auxiliaries += moment.auxiliaries;
+        self.electric += moment.shaft + moment.motor + moment.auxiliaries;
+        if moment.wheels > 0.0 {
+            self.electric_drive += moment.shaft + moment.motor;
+            self.wheels_drive += moment.wheels;
+        } else {
+            self.wheels_brake -= moment.wheels;
+        }
+    }
+
+    /// All but what the battery loses itself.
+    fn sum(&self) -> f64 {
+        self.wheels + self.brakes + self.loss + self.motor + self.auxiliaries
+    }
+}
+
 impl Battery {
     /// The consumption over a simulated cycle of a vehicle; absent without distance, and if the simulation broke off. `oil` is the number of the
     /// oil among the temperatures.
@@ -91,6 +255,7 @@ impl Battery {
     pub fn consumption(&self, driven: &Driven, oil: usize) -> Option<Consumption> {
         let distance = distance(driven).filter(|_| driven.broken.is_none())?;
         let (mut real, mut ideal) = (Energies::default(), Energies::default());
+        let mut parts = Parts::default();
         let mut beyond = driven.total.beyond_map;
         for stretch in &driven.stretches {
             let time = stretch.heats.duration;
@@ -102,6 +267,15 @@ impl Battery {
             let avoidable = if stretch.brakes > 0.0 { 0.0 } else { loss };
             real.add(&self.entry, shaft + other);
             ideal.add(&self.entry, shaft - avoidable + other);
+            let (wheels, loss) = self.wheels(stretch, shaft, loss);
+            parts.add(&Moment {
+                shaft,
+                motor,
+                loss,
+                wheels: wheels - stretch.brakes,
+                brakes: stretch.brakes,
+                auxiliaries: self.entry.auxiliaries * time,
+            });
         }
         let per = |energy: f64| energy / distance / KWH_PER_100_KM;
         let range = |energies: &Energies| {
@@ -113,15 +287,41 @@ impl Battery {
             drawn_kwh_per_100_km: per(real.drawn),
             recuperated_kwh_per_100_km: per(real.recuperated),
             consumption_kwh_per_100_km: per(real.net()),
+            wheels_kwh_per_100_km: per(parts.wheels),
+            transmission_kwh_per_100_km: per(parts.loss),
+            machine_kwh_per_100_km: per(parts.motor),
+            brakes_kwh_per_100_km: per(parts.brakes),
+            auxiliaries_kwh_per_100_km: per(parts.auxiliaries),
+            battery_kwh_per_100_km: per(real.net() - parts.electric),
+            residual_share: (parts.electric - parts.sum()).abs()
+                / (real.drawn + real.recuperated).max(f64::MIN_POSITIVE),
+            system_efficiency: (parts.electric_drive > 0.0).then(|| parts.wheels_drive / parts.electric_drive),
+            recuperated_share: (parts.wheels_brake > 0.0).then(|| real.recuperated / parts.wheels_brake),
             includes_motor: self.motor.is_some() || !driven.total.motors.is_empty(),
             motor_beyond_map: beyond,
             range_km,
             range_lost_in_transmission_km: range_km
                 .zip(range(&ideal))
-                .filter(|_| !self.fixed_efficiency)
+                .filter(|_| self.fixed_efficiency.is_none())
                 .map(|(real, ideal)| ideal - real),
             range_difference_km: None,
         })
+    }
+
+    /// Energy into the wheels from the transmission in an interval, and the loss on the way. \[J\]
+    fn wheels(&self, stretch: &Stretch, shaft: f64, loss: f64) -> (f64, f64) {
+        match (self.fixed_efficiency, stretch.wheels) {
+            (Some(efficiency), _) => {
+                let wheels = if shaft > 0.0 {
+                    shaft * efficiency
+                } else {
+                    shaft / efficiency
+                };
+                (wheels, shaft - wheels)
+            }
+            (None, Some(wheels)) => (wheels, loss),
+            (None, None) => (shaft - loss, loss),
+        }
     }
 
     /// Loss of the motor in an interval, and whether it is outside its map. \[J\]

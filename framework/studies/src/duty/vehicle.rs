@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{BatteryEntry, Demand};
+use gearloss_framework::description::Ordered;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::document::data::TableFile;
 
@@ -34,10 +35,12 @@ pub struct VehicleEntry {
     /// Rolling radius of the driven wheels. [mm]
     #[schemars(range(min = 10.0, max = 5000.0))]
     pub tyre_radius: f64,
-    /// Accelerated mass, including rotating parts, over the mass. The default is assumed: cars with one ratio have 1.03 to 1.05. [-]
-    #[serde(default = "rotating_mass_factor")]
+    /// Accelerated mass, including rotating parts, over the mass; default: 1.04, assumed: cars with one ratio have 1.03 to 1.05. Not with
+    /// `inertia`. [-]
     #[schemars(range(min = 1.0, max = 3.0))]
-    pub rotating_mass_factor: f64,
+    pub rotating_mass_factor: Option<f64>,
+    /// Moments of inertia, from which the factor follows with the ratio of each gear.
+    pub inertia: Option<InertiaEntry>,
     /// Regeneration while braking: `none`, or its limits.
     pub regeneration: RegenerationEntry,
     /// A fixed efficiency between port and wheels; default: the losses of the transmission are used. [-]
@@ -51,8 +54,29 @@ pub struct VehicleEntry {
     pub motor_map: Option<TableFile>,
 }
 
-fn rotating_mass_factor() -> f64 {
-    1.04
+/// Rotating mass factor of cars with one ratio, assumed. \[-\]
+const ROTATING_MASS_FACTOR: f64 = 1.04;
+
+/// Moments of inertia of rotating parts.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct InertiaEntry {
+    /// Of all wheels together, with brakes and half shafts. [kg m2]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub wheels: f64,
+    /// Of the rotor of the machine, at the reference port. [kg m2]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub rotor: f64,
+    /// Of shafts of the gearbox with their gears, by name.
+    #[serde(default)]
+    pub shafts: Ordered<ShaftInertiaEntry>,
+}
+
+/// Moment of inertia of a shaft.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+pub struct ShaftInertiaEntry {
+    /// With its gears, about its own axis. [kg m2]
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub inertia: f64,
 }
 
 /// Coefficients of a coast-down test: force over the speed, a + b v + c v2.
@@ -152,7 +176,7 @@ pub enum RoadLoad {
 }
 
 /// A vehicle; SI.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Vehicle {
     /// \[kg\]
     pub mass: f64,
@@ -160,8 +184,10 @@ pub struct Vehicle {
     pub road_load: RoadLoad,
     /// \[m\]
     pub tyre_radius: f64,
-    /// \[-\]
+    /// Accelerated mass over the mass without the parts of `inertia`. \[-\]
     pub rotating_mass_factor: f64,
+    /// Moments of inertia of rotating parts, if stated.
+    pub inertia: Option<InertiaEntry>,
     /// \[m/s2\]
     pub gravity: f64,
     /// Limits of regeneration; absent: none.
@@ -204,7 +230,16 @@ impl VehicleEntry {
             mass: self.mass,
             road_load,
             tyre_radius: self.tyre_radius,
-            rotating_mass_factor: self.rotating_mass_factor,
+            rotating_mass_factor: match (&self.inertia, self.rotating_mass_factor) {
+                (Some(_), Some(_)) => {
+                    let at = format!("{path}.rotating_mass_factor");
+                    let message = "both `rotating_mass_factor` and `inertia` are stated";
+                    return Err(vehicle_error(at, message).help("delete one of them"));
+                }
+                (Some(_), None) => 1.0,
+                (None, factor) => factor.unwrap_or(ROTATING_MASS_FACTOR),
+            },
+            inertia: self.inertia.clone(),
             gravity: STANDARD_GRAVITY,
             regeneration: match self.regeneration {
                 RegenerationEntry::Word(NoRegeneration::None) => None,
@@ -253,7 +288,29 @@ impl Vehicle {
         Demand::Wheel {
             torque: self.force(speed, acceleration, grade) * self.tyre_radius,
             speed: self.wheel_speed(speed),
+            acceleration,
         }
+    }
+
+    /// The rotating mass factor k = 1 + (J_wheels + J_rotor i2 + sum J_shaft i_shaft2) / (m r2), where i is a speed over that of the wheels:
+    /// of the rotor, and of a shaft by its name. The fixed one without moments of inertia. \[-\]
+    ///
+    /// Source: kinetic energy of translation and rotation at the same acceleration of the vehicle, wheels without slip.
+    pub fn mass_factor(&self, rotor: f64, shaft: impl Fn(&str) -> f64) -> f64 {
+        let Some(inertia) = &self.inertia else {
+            return self.rotating_mass_factor;
+        };
+        let shafts = inertia
+            .shafts
+            .iter()
+            .map(|(name, part)| part.inertia * shaft(name).powi(2));
+        let at_wheels = inertia.wheels + inertia.rotor * rotor * rotor + shafts.sum::<f64>();
+        1.0 + at_wheels / (self.mass * self.tyre_radius * self.tyre_radius)
+    }
+
+    /// Torque at the wheels that accelerates the parts of `inertia`, with the factor that they give. \[Nm\]
+    pub fn inertia_torque(&self, mass_factor: f64, acceleration: f64) -> f64 {
+        self.mass * (mass_factor - self.rotating_mass_factor) * acceleration * self.tyre_radius
     }
 
     /// Limits a braking torque at the port to regeneration; a driving torque is unchanged. Speeds of the port \[rad/s\] and of the vehicle

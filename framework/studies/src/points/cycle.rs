@@ -56,6 +56,8 @@ pub struct Stretch {
     pub heats: Heats,
     /// Energy dissipated in the brakes of the vehicle. \[J\]
     pub brakes: f64,
+    /// Energy from the transmission into the wheels; absent without wheels. \[J\]
+    pub wheels: Option<f64>,
     /// Temperatures at its end: of the nodes, or of the oil only. \[degC\]
     pub temperatures: Vec<f64>,
     /// State of the transmission.
@@ -129,12 +131,17 @@ impl Cases<'_> {
         Ok(self.known.len() - 1)
     }
 
-    /// Ratio of the speed of the reference port to that of the wheels.
-    fn ratio(&mut self, gear: &str) -> Result<f64, Vec<Diagnostic>> {
+    /// Ratio of the speed of the reference port to that of the wheels, and the rotating mass factor of a vehicle.
+    fn ratio(&mut self, gear: &str, vehicle: &Vehicle) -> Result<[f64; 2], Vec<Diagnostic>> {
         let place = self.place(gear, At::Wheels)?;
         let t = self.transmission;
         let speeds = t.speeds(&self.known[place].1, &[1.0]);
-        Ok(speeds[t.ports()[t.reference_port()].member])
+        let ratio = speeds[t.ports()[t.reference_port()].member];
+        let shaft = |name: &str| {
+            let member = t.members().iter().position(|member| member == name);
+            member.map_or(0.0, |member| speeds[member])
+        };
+        Ok([ratio, vehicle.mass_factor(ratio, shaft)])
     }
 }
 
@@ -247,7 +254,7 @@ pub fn drive(
         };
         rest = &rest[passed.len()..];
         for (passed, planned) in passed.into_iter().zip(&planned) {
-            driven.take(passed, planned, [reference, wheels.unwrap_or(reference)].map(member));
+            driven.take(passed, planned, member(reference), wheels.map(member));
             if !progress(1) {
                 return Ok(None);
             }
@@ -318,16 +325,17 @@ fn advance(march: &mut March<'_>, cases: &mut Cases<'_>, planned: &[Planned<'_>]
 
 impl Driven {
     /// Takes over a simulated interval. Members: those of the reference port and of the wheels.
-    fn take(&mut self, passed: Passed, planned: &Planned<'_>, [reference, wheels]: [usize; 2]) {
+    fn take(&mut self, passed: Passed, planned: &Planned<'_>, reference: usize, wheels: Option<usize>) {
         let Planned { interval, asked, .. } = planned;
+        let taken = |member: usize| passed.port_torques[member] * passed.speeds[member];
         let brakes = match asked.brakes {
             Some(watts) => watts * interval.duration,
             None if asked.braking > 0.0 => {
-                let taken = passed.port_torques[wheels] * passed.speeds[wheels];
-                (asked.braking - taken).max(0.0) * interval.duration
+                (asked.braking - taken(wheels.unwrap_or(reference))).max(0.0) * interval.duration
             }
             None => 0.0,
         };
+        let wheels = wheels.map(|member| -taken(member) * interval.duration);
         self.total.add(&passed.heats);
         self.brakes += brakes;
         self.stretches.push(Stretch {
@@ -337,6 +345,7 @@ impl Driven {
             vehicle_speed: interval.given.vehicle_speed,
             heats: passed.heats,
             brakes,
+            wheels,
             temperatures: passed.temperatures,
             status: passed.status,
         });
@@ -382,7 +391,11 @@ fn ask(cases: &mut Cases<'_>, interval: &Interval, around: &Surroundings) -> Res
     let (torque, speed) = match interval.demand {
         Demand::Rest => (0.0, 0.0),
         Demand::Port { torque, speed } => (torque, speed),
-        Demand::Wheel { torque, speed } => {
+        Demand::Wheel {
+            torque,
+            speed,
+            acceleration,
+        } => {
             let Some(vehicle) = ride.vehicle else {
                 return Ok(Asked {
                     place: cases.place(gear, At::Port)?,
@@ -393,7 +406,11 @@ fn ask(cases: &mut Cases<'_>, interval: &Interval, around: &Surroundings) -> Res
                     limited: None,
                 });
             };
-            let ratio = cases.ratio(gear)?;
+            let [ratio, mass_factor] = cases.ratio(gear, vehicle)?;
+            let torque = match vehicle.inertia {
+                Some(_) => torque + vehicle.inertia_torque(mass_factor, acceleration),
+                None => torque,
+            };
             // The input turns forward.
             let wheel_speed = speed * ratio.signum();
             let input_speed = speed * ratio.abs();

@@ -10,6 +10,7 @@ use super::names::devices;
 use super::parameters::{TakenOver, replace_names, written_at};
 use super::then::{PromisedSets, promised_sets};
 use super::{Data, Grid, StudyEntry, Uses};
+use crate::analyses::numbers::word;
 use crate::analyses::{AnalysisEntry, AnalysisKind};
 use crate::codes;
 use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};
@@ -255,6 +256,11 @@ impl Study {
             set: set.filter(|set| *set != OWN_MODELS).map(str::to_owned),
             sets: Map::clone(&self.sets),
             overrides: wheels.chain(speeds).chain(changes).collect(),
+            follows: conditions
+                .follows
+                .iter()
+                .map(|(path, formula)| (path.to_owned(), word(formula)))
+                .collect(),
         }
     }
 
@@ -293,7 +299,13 @@ impl Study {
                         ..finding.clone()
                     });
                 }
+                let follows = &self.entry.conditions.follows;
+                let follower = follows.ids().find(|path| meets(path, &finding.path));
                 match (changed, set) {
+                    _ if follower.is_some() => {
+                        let path = follower.unwrap_or_default();
+                        Some(finding.clone().moved("conditions.follows", path))
+                    }
                     (Some((path, place)), _) => Some(finding.clone().moved(place, path)),
                     (None, Some(path)) => Some(finding.clone().moved("conditions.set", path)),
                     (None, None) if wheels => Some(Diagnostic {

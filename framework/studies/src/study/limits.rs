@@ -54,6 +54,10 @@ pub enum LimitedQuantity {
     Efficiency,
     /// The mean loss of a cycle.
     MeanLoss,
+    /// The consumption over a cycle in kWh/100 km; the vehicle needs a battery.
+    Consumption,
+    /// The range of the vehicle over a cycle in km; it needs a battery.
+    Range,
     /// The ratio of a gear: speed of the reference port over that of the first other port.
     Ratio,
     /// A quantity of a rating: at a point, or over each cycle a life after Palmgren and Miner, the minimum or the maximum of the others.
@@ -61,11 +65,18 @@ pub enum LimitedQuantity {
 }
 
 impl LimitedQuantity {
+    /// Whether it is that of a whole cycle, which no point has.
+    pub fn is_of_cycles(self) -> bool {
+        matches!(self, Self::MeanLoss | Self::Consumption | Self::Range)
+    }
+
     /// Symbol of its unit; that of a rating is its own.
     pub fn unit(self) -> &'static str {
         match self {
             Self::Temperature => "degC",
             Self::MeanLoss | Self::Loss => "W",
+            Self::Consumption => "kWh/100 km",
+            Self::Range => "km",
             Self::Ratio | Self::Rating | Self::Efficiency => "-",
         }
     }

@@ -2,6 +2,7 @@
 
 use gearloss_studies::analyses::compare::CycleComparison;
 use gearloss_studies::distinct::distinct;
+use gearloss_studies::duty::Consumption;
 
 use super::on_grid::with_error;
 use crate::Figure;
@@ -31,9 +32,20 @@ pub fn show(name: &str, all: &[CycleComparison], page: &mut Page) {
 fn consumption(compared: &[&CycleComparison], page: &mut Page) {
     for c in compared {
         if let Some(difference) = c.consumption_difference_kwh_per_100_km {
+            let part = |read: fn(&Consumption) -> f64| {
+                let both = c.consumption.as_ref().zip(c.base_consumption.as_ref());
+                both.map_or(0.0, |(now, before)| read(now) - read(before))
+            };
             page.line(format!(
                 "consumption with {} minus {}: {difference:+.4} kWh/100 km",
                 c.model_set, c.base
+            ));
+            page.line(format!(
+                "  of it: transmission {:+.4}, machine {:+.4}, brakes {:+.4}, battery {:+.4} kWh/100 km",
+                part(|of| of.transmission_kwh_per_100_km),
+                part(|of| of.machine_kwh_per_100_km),
+                part(|of| of.brakes_kwh_per_100_km),
+                part(|of| of.battery_kwh_per_100_km)
             ));
         }
     }

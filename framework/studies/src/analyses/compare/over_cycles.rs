@@ -6,7 +6,6 @@ use serde::Serialize;
 
 use super::cases::{cases, names};
 use super::{CompareEntry, model_error};
-use crate::analyses::balance::reason;
 use crate::analyses::cycle::results::per_distance;
 use crate::analyses::duties::{DrivePlan, Duties, Read, Unfinished, sums_energies};
 use crate::analyses::inputs::Input;
@@ -14,7 +13,7 @@ use crate::analyses::model_error::energies_of_parts;
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::trial::Trial;
 use crate::analyses::{Built, Engine, Planner, Stopped};
-use crate::codes;
+use crate::duty::Consumption;
 use crate::points::{Driven, Note, notes, notes_over_time};
 use crate::study::RideEntry;
 use crate::table::Table;
@@ -48,6 +47,10 @@ pub struct CycleComparison {
     pub consumption_difference_kwh_per_100_km: Option<f64>,
     /// Difference of the range of the vehicle; absent without a battery. [km]
     pub range_difference_km: Option<f64>,
+    /// Energy of the vehicle with the base; absent without a battery.
+    pub base_consumption: Option<Consumption>,
+    /// Energy of the vehicle; absent without a battery.
+    pub consumption: Option<Consumption>,
     /// Differences by share of the loss.
     pub shares: Vec<DifferenceOfShare>,
     /// Differences by phase of the cycle; empty if it has none.
@@ -112,7 +115,7 @@ pub(super) fn compare(
 ) -> Result<Vec<CycleComparison>, Stopped> {
     let DrivePlan { built, duties } = plan;
     let driven = plan.drive(engine)?;
-    whole(engine, plan, &driven)?;
+    plan.refuse_broken(engine, &driven)?;
     let losses = |_: usize, _: &Trial<'_>, t: &Transmission| {
         let driven = duties.drive_all(engine, t).map_err(Unfinished::text)?;
         // A cycle without time has no energy.
@@ -135,6 +138,7 @@ pub(super) fn compare(
             let mut compared = comparison(read, [(base, of_base), (b, driven)], &shares);
             let both = [(base, of_base), (b, driven)];
             let both = both.map(|(b, driven)| duties.consumption(&b.transmission, driven));
+            [compared.base_consumption, compared.consumption] = both;
             if let [Some(before), Some(now)] = both {
                 compared.consumption_difference_kwh_per_100_km =
                     Some(now.consumption_kwh_per_100_km - before.consumption_kwh_per_100_km);
@@ -145,24 +149,6 @@ pub(super) fn compare(
         }
     }
     Ok(comparisons)
-}
-
-/// Rejects a cycle that broke off.
-fn whole(engine: &Engine<'_>, plan: &DrivePlan<'_>, driven: &[Vec<Driven>]) -> Result<(), Stopped> {
-    for (b, driven_of_set) in plan.built.iter().zip(driven) {
-        for (read, driven) in plan.duties.list.iter().zip(driven_of_set) {
-            let Some((time, why)) = &driven.broken else { continue };
-            let message = format!(
-                "`{}` could not be simulated with `{}` beyond {time} s: {}",
-                read.name,
-                b.name,
-                reason(&b.transmission, why)
-            );
-            let help = "examine the point with `explain`";
-            return Err(engine.wrong_as(codes::BROKEN_OFF, &engine.path(), message, help));
-        }
-    }
-    Ok(())
 }
 
 /// Base and case over one cycle.
@@ -197,6 +183,8 @@ fn comparison(read: &Read, pair: [(&Built<'_>, &Driven); 2], shares: &[Shares; 2
         difference_wh_per_km: km.map(|km| difference * duration / 3600.0 / km),
         consumption_difference_kwh_per_100_km: None,
         range_difference_km: None,
+        base_consumption: None,
+        consumption: None,
         shares: shares[0].names.iter().enumerate().map(share).collect(),
         phases: phases(read, both),
         notes: notes_over_time(&b.transmission, driven),

@@ -112,17 +112,23 @@ fn sample(
 impl Samples {
     /// The band of one cycle.
     fn band(&self, duty: usize, inputs: &[Input], shares: usize) -> BandOfDuty {
-        let band = |watts: &dyn Fn(&MeanLoss) -> f64| {
-            let mut values: Vec<f64> = self.driven.iter().map(|(_, losses)| watts(&losses[duty])).collect();
+        let band_of = |mut values: Vec<f64>| {
             values.sort_by(f64::total_cmp);
             SHARES.map(|share| quantile(&values, share))
         };
+        let band = |watts: &dyn Fn(&MeanLoss) -> f64| {
+            band_of(self.driven.iter().map(|(_, losses)| watts(&losses[duty])).collect())
+        };
+        let consumed =
+            |(_, losses): &(Vec<f64>, Vec<MeanLoss>)| Some(losses[duty].consumption?.consumption_kwh_per_100_km);
+        let consumption: Option<Vec<f64>> = self.driven.iter().map(consumed).collect();
         BandOfDuty {
             samples: self.driven.len(),
             failed: self.failed.len(),
             quantiles: SHARES,
             mean_loss_w: band(&|mean| mean.loss),
             mean_losses_w: (0..shares).map(|k| band(&|mean| mean.shares[k])).collect(),
+            consumption_kwh_per_100_km: consumption.map(band_of),
             inputs: self.ranked(duty, inputs),
             reference_inside: None,
             first_failure: self.failed.first().cloned(),

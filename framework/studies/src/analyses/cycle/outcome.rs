@@ -234,6 +234,8 @@ pub struct BandOfDuty {
     pub mean_loss_w: [f64; 3],
     /// The same by share, in the order of the names. [W]
     pub mean_losses_w: Vec<[f64; 3]>,
+    /// Lower end, median and upper end of the consumption; absent without a battery or without distance. [kWh/100 km]
+    pub consumption_kwh_per_100_km: Option<[f64; 3]>,
     /// The inputs, those with the strongest correlation first.
     pub inputs: Vec<InputOfBand>,
     /// Whether the reference mean loss is inside the band; absent without one.

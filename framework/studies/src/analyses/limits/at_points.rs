@@ -30,7 +30,7 @@ impl Watch {
     /// Wrong limits, and ratings that cannot be built.
     pub fn new(scope: Scope<'_>, gearbox: &Gearbox, resolved: &Resolved) -> Result<Option<Self>, Findings> {
         let mut limits = Limit::of_study(scope)?;
-        limits.retain(|limit| limit.quantity != LimitedQuantity::MeanLoss);
+        limits.retain(|limit| !limit.quantity.is_of_cycles());
         if limits.is_empty() {
             return Ok(None);
         }
@@ -125,7 +125,7 @@ impl LimitColumn {
     /// The limits of a study at points, in the order of [`PointResult::limits`].
     pub fn all(language: &Language, study: &Study) -> Vec<Self> {
         let entries = study.entry.limits.iter();
-        let at_points = entries.filter(|(_, entry)| entry.quantity != LimitedQuantity::MeanLoss);
+        let at_points = entries.filter(|(_, entry)| !entry.quantity.is_of_cycles());
         let column = |(name, entry): (&str, &LimitEntry)| {
             let figure = figure_of(language, entry);
             Self {

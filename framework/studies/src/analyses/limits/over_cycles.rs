@@ -46,7 +46,13 @@ pub fn cycle(cx: &Planner<'_>, path: &str, name: &str, duties: &Duties<'_>) -> R
 
 impl Limit {
     /// The limited value of a driven design, in the unit: of the worst moment, component and cycle. `rated` are the ratings over each cycle.
-    fn value(&self, t: &Transmission, driven: &[Driven], rated: &[Vec<RatedOverTime>]) -> Option<f64> {
+    fn value(
+        &self,
+        duties: &Duties<'_>,
+        t: &Transmission,
+        driven: &[Driven],
+        rated: &[Vec<RatedOverTime>],
+    ) -> Option<f64> {
         match &self.of {
             Owner::Rating { .. } => {
                 let ratings = rated.iter().flatten();
@@ -60,9 +66,10 @@ impl Limit {
                 Some(self.worst(all))
             }
             Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
-            Owner::Cycle(cycle) => mean_loss(&driven[*cycle]),
+            Owner::Cycle(cycle) => self.of_cycle(duties, t, &driven[*cycle]),
             Owner::AllCycles => {
-                let all = driven.iter().map(mean_loss).collect::<Option<Vec<f64>>>()?;
+                let all = driven.iter().map(|cycle| self.of_cycle(duties, t, cycle));
+                let all = all.collect::<Option<Vec<f64>>>()?;
                 Some(self.worst(all.into_iter()))
             }
             Owner::Oil | Owner::Node(_) => {
@@ -79,6 +86,15 @@ impl Limit {
                 });
                 Some(self.worst(all))
             }
+        }
+    }
+
+    /// The limited quantity of a whole cycle.
+    fn of_cycle(&self, duties: &Duties<'_>, t: &Transmission, driven: &Driven) -> Option<f64> {
+        match self.quantity {
+            LimitedQuantity::Consumption => Some(duties.consumption(t, driven)?.consumption_kwh_per_100_km),
+            LimitedQuantity::Range => duties.consumption(t, driven)?.range_km,
+            _ => mean_loss(driven),
         }
     }
 
@@ -112,6 +128,26 @@ impl Limit {
     }
 }
 
+impl Limit {
+    /// The limited value in one of the cycles; absent where it is unknown, and for a limit of another cycle.
+    pub fn in_cycle(
+        &self,
+        duties: &Duties<'_>,
+        t: &Transmission,
+        (k, driven): (usize, &Driven),
+        rated: &[Vec<RatedOverTime>],
+    ) -> Option<f64> {
+        if self.is_of_another_cycle(k) {
+            return None;
+        }
+        let rated = rated.get(k).map_or(&[][..], std::slice::from_ref);
+        match self.of {
+            Owner::Cycle(_) => self.of_cycle(duties, t, driven),
+            _ => self.value(duties, t, std::slice::from_ref(driven), rated),
+        }
+    }
+}
+
 /// What the limits reach in each cycle of a simulated gearbox, in the order of the limits; `rated` are the ratings over each cycle.
 pub fn reached(
     limits: &[Limit],
@@ -127,12 +163,7 @@ pub fn reached(
             .enumerate()
             .filter(|(k, _)| !limit.is_of_another_cycle(*k))
         {
-            let alone = std::slice::from_ref(*driven);
-            let value = match limit.of {
-                Owner::Cycle(_) => mean_loss(driven),
-                _ => limit.value(t, alone, rated.get(k).map_or(&[], std::slice::from_ref)),
-            };
-            let value = value.unwrap_or(f64::NAN);
+            let value = limit.in_cycle(duties, t, (k, driven), rated).unwrap_or(f64::NAN);
             let mut parts = rated.get(k).into_iter().flatten().filter(|rating| limit.limits(rating));
             let component = parts
                 .find(|rating| rating.value == value)
@@ -201,7 +232,7 @@ pub fn values(
                 .push(ratings_over_cycle.map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?);
         }
     }
-    let value = |limit: &Limit| limit.value(t, driven, &rated).unwrap_or(f64::NAN);
+    let value = |limit: &Limit| limit.value(duties, t, driven, &rated).unwrap_or(f64::NAN);
     Ok(limits.iter().map(value).collect())
 }
 

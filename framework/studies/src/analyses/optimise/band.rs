@@ -3,6 +3,7 @@
 use gearloss_numerics::sampling::Sobol;
 
 use super::drives::Drives;
+use super::objectives::Objective;
 use crate::analyses::Stopped;
 use crate::analyses::inputs::Input;
 use crate::points::quantile;
@@ -10,7 +11,7 @@ use crate::points::quantile;
 /// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// Quantiles of the gains of an objective over the samples. \[W\]
+/// Quantiles of the gains of an objective over the samples, in its unit.
 #[derive(Debug, Clone)]
 pub struct Band {
     /// Of all changes together.
@@ -28,7 +29,7 @@ pub fn of_gain(
     inputs: &[Input],
     genes: &[f64],
     changed: &[usize],
-    objectives: &[usize],
+    objectives: &[Objective],
 ) -> Result<Vec<Band>, Stopped> {
     let engine = drives.engine;
     let path = engine.path();
@@ -43,7 +44,7 @@ pub fn of_gain(
         let losses = |is_changed: &dyn Fn(usize) -> bool| -> Result<Vec<f64>, String> {
             let changes = drives.overrides(genes, is_changed);
             let drive = drives.drive(values.iter().cloned().chain(changes).collect())?;
-            Ok(objectives.iter().map(|cycle| drive.losses[*cycle]).collect())
+            Ok(objectives.iter().map(|objective| objective.value(&drive)).collect())
         };
         let present = losses(&|_| false)?;
         let gain = |losses: Vec<f64>| {

@@ -1,12 +1,13 @@
 //! What each change of the best design saves: alone, and as its share of the gain of all.
 
 use super::drives::{Drive, Drives};
+use super::objectives::Objective;
 use crate::analyses::Stopped;
 
 /// Maximum number of changes whose shares are computed: every combination of them is driven.
 const MOST_SHARED: usize = 8;
 
-/// A change of the best design. Gains are by objective. \[W\]
+/// A change of the best design. Gains are by objective, in its unit.
 #[derive(Debug, Clone)]
 pub struct Change {
     /// Index of the variable.
@@ -23,7 +24,7 @@ pub fn of_design(
     drives: &Drives<'_>,
     genes: &[f64],
     present: &Drive,
-    objectives: &[usize],
+    objectives: &[Objective],
 ) -> Result<Vec<Change>, Stopped> {
     let variables = drives.variables.iter().zip(genes).enumerate();
     let changed: Vec<usize> = variables
@@ -46,7 +47,7 @@ pub fn of_design(
     let gain = |drive: &Drive| -> Vec<f64> {
         objectives
             .iter()
-            .map(|cycle| present.losses[*cycle] - drive.losses[*cycle])
+            .map(|objective| objective.value(present) - objective.value(drive))
             .collect()
     };
     let mut gains: Vec<Option<Vec<f64>>> = vec![Some(vec![0.0; objectives.len()])];

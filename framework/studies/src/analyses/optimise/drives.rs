@@ -10,6 +10,7 @@ use crate::analyses::limits::Limit;
 use crate::analyses::limits::over_cycles::{built, mean_loss, values, violation};
 use crate::analyses::trial::{Left, Trial, left};
 use crate::analyses::{Engine, Planner, Stopped};
+use crate::duty::Consumption;
 
 /// What is driven, and how designs are built.
 pub struct Drives<'a> {
@@ -25,6 +26,8 @@ pub struct Drives<'a> {
 pub struct Drive {
     /// Mean loss of each cycle. \[W\]
     pub losses: Vec<f64>,
+    /// Energy of the vehicle over each cycle; absent without a battery or without distance.
+    pub consumptions: Vec<Option<Consumption>>,
     /// Limited quantities, in the order and the units of the limits.
     pub limited: Vec<f64>,
     /// Quantities outside their stated ranges.
@@ -74,6 +77,7 @@ impl Drives<'_> {
                 .iter()
                 .map(|cycle| mean_loss(cycle).unwrap_or(f64::INFINITY))
                 .collect(),
+            consumptions: driven.iter().map(|cycle| self.duties.consumption(&t, cycle)).collect(),
             limited: values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?,
             left: driven.iter().flat_map(|cycle| left(&t, &cycle.seen)).collect(),
         })
@@ -91,15 +95,22 @@ impl Drives<'_> {
     }
 }
 
-/// Rejects a chosen value with which the gearbox cannot be built.
+/// Rejects a chosen value with which the gearbox cannot be built. Of values that belong together, or that others follow, some may be
+/// impossible: designs with them are counted, and only if none is possible, the first reason is an error.
 pub fn check(cx: &Planner<'_>, trial: &Trial<'_>, variables: &[Variable]) -> Result<(), Stopped> {
+    let is_followed = !cx.study.entry.conditions.follows.is_empty();
     for variable in variables {
         let Gene::Choice(count) = variable.gene() else { continue };
+        let mut faults = Vec::new();
         for choice in 0..count {
             if let Err(reason) = trial.build(variable.overrides(choice as f64)) {
-                let path = format!("{}.variables.{}.values.{choice}", cx.path(), variable.name);
-                return Err(cx.wrong(&path, reason, "correct the value, or delete it"));
+                faults.push((choice, reason));
             }
+        }
+        let may_fail = variable.is_joint() || is_followed;
+        if let Some((choice, reason)) = faults.first().filter(|_| !may_fail || faults.len() == count) {
+            let path = format!("{}.variables.{}.values.{choice}", cx.path(), variable.name);
+            return Err(cx.wrong(&path, reason.clone(), "correct the value, or delete it"));
         }
     }
     Ok(())

@@ -10,11 +10,14 @@ use super::OptimiseEntry;
 use super::band::Band;
 use super::changes::Change;
 use super::drives::{Drive, Drives};
+use super::objectives::{Minimised, Objective};
 use super::search::Search;
 use crate::analyses::limits::over_cycles::note_proposed;
 use crate::analyses::limits::{Limit, LimitRecord};
 use crate::analyses::trial::Left;
 use crate::analyses::{Built, Head, Outcome, TextFile};
+use crate::distinct::distinct;
+use crate::duty::Consumption;
 use crate::points::Note;
 use crate::table::Table;
 
@@ -34,6 +37,8 @@ pub struct OptimiseOutcome {
     pub failed: usize,
     /// Why the first of them could not be.
     pub first_failure: Option<String>,
+    /// Every reason with the number of designs, the most frequent first.
+    pub failures: Vec<FailureOfSearch>,
     /// True if every combination of the choices was evaluated.
     pub exhaustive: bool,
     /// Seed of the random numbers.
@@ -42,8 +47,12 @@ pub struct OptimiseOutcome {
     pub variables: Vec<VariableOfSearch>,
     /// The limits.
     pub limits: Vec<LimitOfSearch>,
-    /// Mean losses of the cycles.
+    /// What is minimised.
+    pub objectives: Vec<ObjectiveOfSearch>,
+    /// Mean losses of the cycles, and the consumption of the vehicle.
     pub gains: Vec<GainOfCycle>,
+    /// Cycles over which the design with the least loss is not that with the least consumption.
+    pub disagreements: Vec<Disagreement>,
     /// The changes of the best design, the one that saves most first.
     pub changes: Vec<ChangeOfDesign>,
     /// Designs that keep the limits and that no other design beats in every objective, the least loss in the first one first.
@@ -60,6 +69,33 @@ pub struct OptimiseOutcome {
     /// Quantities outside their stated ranges in the best design.
     #[serde(skip)]
     pub left: Vec<(String, String)>,
+}
+
+/// Why designs could not be built or driven.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct FailureOfSearch {
+    /// The reason.
+    pub reason: String,
+    /// Number of designs.
+    pub designs: usize,
+}
+
+impl FailureOfSearch {
+    /// The reasons with their numbers, the most frequent first.
+    pub fn all<'r>(reasons: impl Iterator<Item = &'r String>) -> Vec<Self> {
+        let mut all: Vec<Self> = Vec::new();
+        for reason in reasons {
+            match all.iter_mut().find(|known| known.reason == *reason) {
+                Some(known) => known.designs += 1,
+                None => all.push(Self {
+                    reason: reason.clone(),
+                    designs: 1,
+                }),
+            }
+        }
+        all.sort_by_key(|failure| std::cmp::Reverse(failure.designs));
+        all
+    }
 }
 
 /// A variable of a search.
@@ -89,6 +125,62 @@ pub struct LimitOfSearch {
     pub binding: bool,
 }
 
+/// A minimised quantity before and after.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ObjectiveOfSearch {
+    /// The quantity.
+    pub quantity: Minimised,
+    /// Name of the cycle.
+    pub cycle: String,
+    /// Unit of its values.
+    pub unit: &'static str,
+    /// Value of the design as described. [unit]
+    pub present: f64,
+    /// Value of the best design. [unit]
+    pub best: Option<f64>,
+    /// Least value of any design that keeps the limits. [unit]
+    pub least: Option<f64>,
+    /// Band of the gain under the uncertain inputs.
+    pub band: Option<BandOfGain>,
+}
+
+/// Consumption of the vehicle over a cycle before and after.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct ConsumptionOfSearch {
+    /// Whether it is minimised.
+    pub minimised: bool,
+    /// Of the design as described.
+    pub present: Consumption,
+    /// Of the best design.
+    pub best: Option<Consumption>,
+    /// Least consumption of any design that keeps the limits. [kWh/100 km]
+    pub least_kwh_per_100_km: Option<f64>,
+}
+
+/// A cycle over which the least loss of the gearbox and the least consumption belong to different designs.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct Disagreement {
+    /// Name of the cycle.
+    pub cycle: String,
+    /// The design with the least mean loss of those that keep the limits.
+    pub least_loss: DesignOfDisagreement,
+    /// The one with the least consumption.
+    pub least_consumption: DesignOfDisagreement,
+}
+
+/// One of two designs that differ.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct DesignOfDisagreement {
+    /// Number in the order of evaluation, from one.
+    pub design: usize,
+    /// Values of the variables, in their order.
+    pub values: Vec<String>,
+    /// Mean loss of the gearbox. [W]
+    pub mean_loss_w: f64,
+    /// Energy of the vehicle.
+    pub consumption: Consumption,
+}
+
 /// Mean loss of a cycle before and after.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct GainOfCycle {
@@ -104,13 +196,17 @@ pub struct GainOfCycle {
     pub least_w: Option<f64>,
     /// Band of the gain under the uncertain inputs.
     pub band: Option<BandOfGain>,
+    /// Consumption of the vehicle; absent without a battery or without distance.
+    pub consumption: Option<ConsumptionOfSearch>,
 }
 
 /// Band of a gain under uncertain inputs.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
 pub struct BandOfGain {
-    /// Quantiles of 2.5, 50 and 97.5 %. [W]
-    pub gain_w: [f64; 3],
+    /// Quantiles of 2.5, 50 and 97.5 % of a loss. [W]
+    pub gain_w: Option<[f64; 3]>,
+    /// The same of a consumption. [kWh/100 km]
+    pub gain_kwh_per_100_km: Option<[f64; 3]>,
     /// Number of samples.
     pub samples: usize,
     /// True if zero is inside the band: the gain is smaller than its uncertainty.
@@ -118,12 +214,19 @@ pub struct BandOfGain {
 }
 
 impl BandOfGain {
-    fn new(gain_w: [f64; 3], samples: usize) -> Self {
+    fn new(quantity: Minimised, gain: [f64; 3], samples: usize) -> Self {
+        let of = |wanted| (quantity == wanted).then_some(gain);
         Self {
-            gain_w,
+            gain_w: of(Minimised::MeanLoss),
+            gain_kwh_per_100_km: of(Minimised::Consumption),
             samples,
-            contains_zero: gain_w[0] <= 0.0 && gain_w[2] >= 0.0,
+            contains_zero: gain[0] <= 0.0 && gain[2] >= 0.0,
         }
+    }
+
+    /// The quantiles in the unit of the objective.
+    pub fn gain(&self) -> [f64; 3] {
+        self.gain_w.or(self.gain_kwh_per_100_km).unwrap_or_default()
     }
 }
 
@@ -136,12 +239,22 @@ pub struct ChangeOfDesign {
     pub from: String,
     /// Value in the best design.
     pub to: String,
-    /// Gain of this change alone in each minimised cycle; null if it cannot be driven. [W]
+    /// Gain of this change alone in each minimised loss; null if it cannot be driven. [W]
     pub alone_w: Option<Vec<f64>>,
-    /// Its share of the gain of all changes in each minimised cycle (Shapley value); null with more than eight changes. [W]
+    /// Its share of the gain of all changes in each minimised loss (Shapley value); null with more than eight changes. [W]
     pub share_w: Option<Vec<f64>>,
-    /// Band of its gain alone in each minimised cycle; empty without uncertain inputs.
+    /// Gain of this change alone in each minimised consumption. [kWh/100 km]
+    pub alone_kwh_per_100_km: Option<Vec<f64>>,
+    /// Its share of the gain of all changes in each minimised consumption. [kWh/100 km]
+    pub share_kwh_per_100_km: Option<Vec<f64>>,
+    /// Band of its gain alone in each objective; empty without uncertain inputs.
     pub bands: Vec<BandOfGain>,
+    /// Gain of this change alone in each objective, in its unit.
+    #[serde(skip)]
+    pub alone: Option<Vec<f64>>,
+    /// Its share of the gain of all changes in each objective, in its unit.
+    #[serde(skip)]
+    pub share: Option<Vec<f64>>,
 }
 
 /// An evaluated design.
@@ -153,6 +266,11 @@ pub struct DesignOfSearch {
     pub values: Vec<String>,
     /// Mean losses of the minimised cycles. [W]
     pub mean_losses_w: Option<Vec<f64>>,
+    /// Consumption over the minimised cycles; absent without a battery or without distance. [kWh/100 km]
+    pub consumptions_kwh_per_100_km: Option<Vec<f64>>,
+    /// Values of the objectives, each in its unit.
+    #[serde(skip)]
+    pub objectives: Option<Vec<f64>>,
     /// Limited quantities, in the order and the units of the limits.
     pub limited: Vec<f64>,
     /// Sum of the relative violations of the limits.
@@ -172,7 +290,7 @@ pub fn put_together(
     drives: &Drives<'_>,
     search: &Search<'_>,
     present: &Drive,
-    objectives: &[usize],
+    objectives: &[Objective],
     changes: Vec<Change>,
     bands: Vec<Band>,
 ) -> OptimiseOutcome {
@@ -182,10 +300,20 @@ pub fn put_together(
         search.driven[place].as_ref().ok()
     });
     let front = search.front();
+    let cycles = minimised_cycles(objectives);
+    let consumptions = |drive: &Drive| -> Option<Vec<f64>> {
+        let of = |cycle: &usize| Some(drive.consumptions[*cycle]?.consumption_kwh_per_100_km);
+        cycles.iter().map(of).collect()
+    };
     let design = |i: usize| DesignOfSearch {
         design: i + 1,
         values: words(drives, &search.designs[i].genes),
         mean_losses_w: search.driven[i]
+            .as_ref()
+            .ok()
+            .map(|drive| cycles.iter().map(|cycle| drive.losses[*cycle]).collect()),
+        consumptions_kwh_per_100_km: search.driven[i].as_ref().ok().and_then(&consumptions),
+        objectives: search.driven[i]
             .is_ok()
             .then(|| search.designs[i].score.objectives.clone()),
         limited: search.driven[i]
@@ -222,15 +350,23 @@ pub fn put_together(
             .count(),
         failed: usize::from(first_failure.is_some()) + failures.count(),
         first_failure,
+        failures: FailureOfSearch::all(search.driven.iter().filter_map(|driven| driven.as_ref().err())),
         exhaustive: search.is_exhaustive,
         seed: entry.seed,
         variables: variables(drives, genes, b),
         limits: limits(drives, present, best),
+        objectives: of_objectives(drives, search, present, best, (objectives, &bands)),
         gains: gains(drives, search, present, best, (objectives, &bands)),
-        changes: ordered(changes, drives, genes, b, &bands),
+        disagreements: disagreements(drives, search),
+        changes: ordered(changes, drives, genes, b, (objectives, &bands)),
         front: front.iter().map(|i| design(*i)).collect(),
         all: (0..search.designs.len()).map(design).collect(),
-        found: genes.map_or_else(Vec::new, |genes| drives.overrides(genes, |_| true)),
+        found: genes.map_or_else(Vec::new, |genes| {
+            let mut found = drives.overrides(genes, |_| true);
+            // A gearbox of its own has no formulas of the study.
+            found.extend(drives.trial.followed(&found).unwrap_or_default());
+            found
+        }),
         gearbox: gearbox.map_or_else(String::new, |(_, file)| file.clone()),
         left: best
             .map_or_else(Left::new, |drive| drive.left.clone())
@@ -281,19 +417,63 @@ fn limits(drives: &Drives<'_>, present: &Drive, best: Option<&Drive>) -> Vec<Lim
     limits.map(limit).collect()
 }
 
+/// The cycles of the objectives, each once.
+fn minimised_cycles(objectives: &[Objective]) -> Vec<usize> {
+    let mut cycles: Vec<usize> = Vec::new();
+    for objective in objectives {
+        if !cycles.contains(&objective.cycle) {
+            cycles.push(objective.cycle);
+        }
+    }
+    cycles
+}
+
+/// The driven designs that keep the limits, with their index.
+fn kept<'s>(search: &'s Search<'_>) -> impl Iterator<Item = (usize, &'s Drive)> {
+    let all = search.designs.iter().zip(&search.driven).enumerate();
+    all.filter(|(_, (design, _))| design.score.is_feasible())
+        .filter_map(|(i, (_, drive))| Some((i, drive.as_ref().ok()?)))
+}
+
+fn of_objectives(
+    drives: &Drives<'_>,
+    search: &Search<'_>,
+    present: &Drive,
+    best: Option<&Drive>,
+    (objectives, bands): (&[Objective], &[Band]),
+) -> Vec<ObjectiveOfSearch> {
+    let of = |(i, objective): (usize, &Objective)| ObjectiveOfSearch {
+        quantity: objective.quantity,
+        cycle: drives.duties.list[objective.cycle].name.clone(),
+        unit: objective.quantity.unit(),
+        present: objective.value(present),
+        best: best.map(|drive| objective.value(drive)),
+        least: kept(search)
+            .map(|(_, drive)| objective.value(drive))
+            .min_by(f64::total_cmp),
+        band: bands
+            .get(i)
+            .map(|band| BandOfGain::new(objective.quantity, band.all, band.samples)),
+    };
+    objectives.iter().enumerate().map(of).collect()
+}
+
 fn gains(
     drives: &Drives<'_>,
     search: &Search<'_>,
     present: &Drive,
     best: Option<&Drive>,
-    (objectives, bands): (&[usize], &[Band]),
+    (objectives, bands): (&[Objective], &[Band]),
 ) -> Vec<GainOfCycle> {
     let cycles = drives.duties.list.iter().enumerate();
     let gain = |(cycle, read): (usize, &crate::analyses::duties::Read)| {
-        let objective = objectives.iter().position(|known| *known == cycle);
-        let feasible = search.designs.iter().zip(&search.driven);
-        let feasible = feasible.filter(|(design, _)| design.score.is_feasible());
-        let losses = feasible.filter_map(|(_, drive)| Some(drive.as_ref().ok()?.losses[cycle]));
+        let place = |quantity| {
+            let wanted = Objective { quantity, cycle };
+            objectives.iter().position(|known| *known == wanted)
+        };
+        let objective = place(Minimised::MeanLoss);
+        let losses = kept(search).map(|(_, drive)| drive.losses[cycle]);
+        let consumed = |drive: &Drive| Some(drive.consumptions[cycle]?.consumption_kwh_per_100_km);
         let band = objective.and_then(|objective| bands.get(objective));
         GainOfCycle {
             cycle: read.name.clone(),
@@ -301,10 +481,47 @@ fn gains(
             present_w: present.losses[cycle],
             best_w: best.map(|drive| drive.losses[cycle]),
             least_w: losses.min_by(f64::total_cmp),
-            band: band.map(|band| BandOfGain::new(band.all, band.samples)),
+            band: band.map(|band| BandOfGain::new(Minimised::MeanLoss, band.all, band.samples)),
+            consumption: present.consumptions[cycle].map(|of_present| ConsumptionOfSearch {
+                minimised: place(Minimised::Consumption).is_some(),
+                present: of_present,
+                best: best.and_then(|drive| drive.consumptions[cycle]),
+                least_kwh_per_100_km: kept(search)
+                    .filter_map(|(_, drive)| consumed(drive))
+                    .min_by(f64::total_cmp),
+            }),
         }
     };
     cycles.map(gain).collect()
+}
+
+/// Cycles with a consumption whose least value belongs to another design than the least loss.
+fn disagreements(drives: &Drives<'_>, search: &Search<'_>) -> Vec<Disagreement> {
+    let cycles = drives.duties.list.iter().enumerate();
+    let disagreement = |(cycle, read): (usize, &crate::analyses::duties::Read)| {
+        let designs =
+            || kept(search).filter_map(|(i, drive)| Some((i, drive.losses[cycle], drive.consumptions[cycle]?)));
+        let net = |design: &(usize, f64, Consumption)| design.2.consumption_kwh_per_100_km;
+        let least_loss = designs().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let least_consumption = designs().min_by(|a, b| net(a).total_cmp(&net(b)))?;
+        // Designs that differ by rounding errors do not disagree.
+        let gain = net(&least_loss) - net(&least_consumption);
+        if gain <= 1e-9 * net(&least_loss).abs() {
+            return None;
+        }
+        let design = |(i, mean_loss_w, consumption): (usize, f64, Consumption)| DesignOfDisagreement {
+            design: i + 1,
+            values: words(drives, &search.designs[i].genes),
+            mean_loss_w,
+            consumption,
+        };
+        Some(Disagreement {
+            cycle: read.name.clone(),
+            least_loss: design(least_loss),
+            least_consumption: design(least_consumption),
+        })
+    };
+    cycles.filter_map(disagreement).collect()
 }
 
 /// The changes, the one that saves most in the first objective first.
@@ -313,30 +530,51 @@ fn ordered(
     drives: &Drives<'_>,
     genes: Option<&[f64]>,
     b: &Built<'_>,
-    bands: &[Band],
+    (objectives, bands): (&[Objective], &[Band]),
 ) -> Vec<ChangeOfDesign> {
     let Some(genes) = genes else { return Vec::new() };
+    let of = |wanted: Minimised, list: &Option<Vec<f64>>| -> Option<Vec<f64>> {
+        let pairs = objectives.iter().zip(list.as_ref()?);
+        let of_quantity = pairs.filter(|(objective, _)| objective.quantity == wanted);
+        Some(of_quantity.map(|(_, gain)| *gain).collect())
+    };
+    let is_minimised = |wanted: Minimised| objectives.iter().any(|objective| objective.quantity == wanted);
+    let consumed =
+        |list: &Option<Vec<f64>>| of(Minimised::Consumption, list).filter(|_| is_minimised(Minimised::Consumption));
+    let lost = |list: &Option<Vec<f64>>| of(Minimised::MeanLoss, list).filter(|_| is_minimised(Minimised::MeanLoss));
     let change = |(place, saved): (usize, Change)| {
         let variable = &drives.variables[saved.variable];
         ChangeOfDesign {
             variable: variable.name.clone(),
             from: variable.present_words(b),
             to: variable.words(genes[saved.variable]),
-            alone_w: saved.alone,
-            share_w: saved.share,
+            alone_w: lost(&saved.alone),
+            share_w: lost(&saved.share),
+            alone_kwh_per_100_km: consumed(&saved.alone),
+            share_kwh_per_100_km: consumed(&saved.share),
             bands: bands
                 .iter()
-                .map(|band| BandOfGain::new(band.alone[place], band.samples))
+                .zip(objectives)
+                .map(|(band, objective)| BandOfGain::new(objective.quantity, band.alone[place], band.samples))
                 .collect(),
+            alone: saved.alone,
+            share: saved.share,
         }
     };
     let mut all: Vec<ChangeOfDesign> = changes.into_iter().enumerate().map(change).collect();
     let saved = |change: &ChangeOfDesign| {
-        let list = change.share_w.as_ref().or(change.alone_w.as_ref());
+        let list = change.share.as_ref().or(change.alone.as_ref());
         list.map_or(f64::NEG_INFINITY, |list| list[0])
     };
     all.sort_by(|a, b| saved(b).total_cmp(&saved(a)));
     all
+}
+
+impl OptimiseOutcome {
+    /// The cycles of the objectives, each once.
+    pub fn minimised_cycles(&self) -> Vec<&str> {
+        distinct(self.objectives.iter().map(|objective| objective.cycle.as_str()))
+    }
 }
 
 impl Outcome for OptimiseOutcome {
@@ -346,7 +584,12 @@ impl Outcome for OptimiseOutcome {
 
     fn tables(&self) -> Vec<Table> {
         let name = &self.head.analysis;
-        let minimised: Vec<&GainOfCycle> = self.gains.iter().filter(|gain| gain.minimised).collect();
+        let cycles = self.minimised_cycles();
+        let has_consumption = self
+            .all
+            .iter()
+            .any(|design| design.consumptions_kwh_per_100_km.is_some());
+        let consumed = cycles.iter().enumerate().filter(|_| has_consumption);
         let designs = Table::of(name, &self.all)
             .number("design", "-", "Number in the order of evaluation", |design| {
                 design.design as f64
@@ -355,11 +598,20 @@ impl Outcome for OptimiseOutcome {
                 let meaning = format!("Value of {}", variable.path);
                 table.text(variable.variable.clone(), meaning, move |design| &design.values[i])
             })
-            .each(minimised.iter().enumerate(), |table, (i, cycle)| {
-                let meaning = format!("Mean loss over {}", cycle.cycle);
-                table.number(format!("{}_w", cycle.cycle), "W", meaning, move |design| {
+            .each(cycles.iter().enumerate(), |table, (i, cycle)| {
+                let meaning = format!("Mean loss over {cycle}");
+                table.number(format!("{cycle}_w"), "W", meaning, move |design| {
                     design.mean_losses_w.as_ref().map(|all| all[i])
                 })
+            })
+            .each(consumed, |table, (i, cycle)| {
+                let meaning = format!("Consumption over {cycle}");
+                table.number(
+                    format!("{cycle}_kwh_per_100_km"),
+                    "kWh/100 km",
+                    meaning,
+                    move |design| design.consumptions_kwh_per_100_km.as_ref().map(|all| all[i]),
+                )
             })
             .each(self.limits.iter().enumerate(), |table, (i, limit)| {
                 let LimitRecord {
@@ -372,20 +624,24 @@ impl Outcome for OptimiseOutcome {
             .fields("violation on_front", |design| design);
         let changes = Table::of(format!("{name}-changes"), &self.changes)
             .fields("variable from to", |change| change)
-            .each(minimised.iter().enumerate(), |table, (i, cycle)| {
-                let of = &cycle.cycle;
+            .each(self.objectives.iter().enumerate(), |table, (i, objective)| {
+                let (of, unit) = (&objective.cycle, objective.unit);
+                let suffix = match objective.quantity {
+                    Minimised::MeanLoss => "w",
+                    Minimised::Consumption => "kwh_per_100_km",
+                };
                 table
                     .number(
-                        format!("{of}_alone_w"),
-                        "W",
+                        format!("{of}_alone_{suffix}"),
+                        unit,
                         format!("Gain of the change alone over {of}"),
-                        move |change| change.alone_w.as_ref().map(|all| all[i]),
+                        move |change| change.alone.as_ref().map(|all| all[i]),
                     )
                     .number(
-                        format!("{of}_share_w"),
-                        "W",
+                        format!("{of}_share_{suffix}"),
+                        unit,
                         format!("Share of the gain of all changes over {of}"),
-                        move |change| change.share_w.as_ref().map(|all| all[i]),
+                        move |change| change.share.as_ref().map(|all| all[i]),
                     )
             });
         vec![designs.finish(), changes.finish()]

@@ -6,6 +6,7 @@ use gearloss_numerics::search::{Design, Evolution, Gene, Refinement, Score, best
 
 use super::OptimiseEntry;
 use super::drives::{Drive, Drives};
+use super::objectives::Objective;
 use crate::analyses::Stopped;
 
 /// Share of the designs for refining numbers.
@@ -18,8 +19,8 @@ const STEP: f64 = 0.05;
 pub struct Search<'a> {
     drives: &'a Drives<'a>,
     entry: &'a OptimiseEntry,
-    objectives: &'a [usize],
-    /// Mean losses of the design as described, by objective. \[W\]
+    objectives: &'a [Objective],
+    /// Values of the design as described, by objective.
     present: Vec<f64>,
     genes: Vec<Gene>,
     /// Evaluated designs, in their order.
@@ -33,12 +34,12 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    pub fn new(drives: &'a Drives<'a>, entry: &'a OptimiseEntry, present: &Drive, objectives: &'a [usize]) -> Self {
+    pub fn new(drives: &'a Drives<'a>, entry: &'a OptimiseEntry, present: &Drive, objectives: &'a [Objective]) -> Self {
         Self {
             drives,
             entry,
             objectives,
-            present: objectives.iter().map(|cycle| present.losses[*cycle]).collect(),
+            present: objectives.iter().map(|objective| objective.value(present)).collect(),
             genes: drives.genes(),
             designs: Vec::new(),
             driven: Vec::new(),
@@ -148,7 +149,7 @@ impl<'a> Search<'a> {
         for (genes, drive) in new.into_iter().zip(driven) {
             let score = match &drive {
                 Ok(drive) => Score {
-                    objectives: self.objectives.iter().map(|cycle| drive.losses[*cycle]).collect(),
+                    objectives: self.objectives.iter().map(|objective| objective.value(drive)).collect(),
                     violation: self.drives.violation(drive),
                 },
                 Err(_) => Score {
@@ -164,14 +165,17 @@ impl<'a> Search<'a> {
         Ok(known.map(|i| self.designs[*i].clone()).collect())
     }
 
-    /// The design with the least losses, relative to those of the design as described: their mean over the objectives. Absent if no design
+    /// The design with the least objectives, relative to those of the design as described: their mean over the objectives. Absent if no design
     /// keeps the limits.
     pub fn chosen(&self) -> Option<Design> {
         let sum = |design: &&Design| -> f64 {
             let pairs = design.score.objectives.iter().zip(&self.present);
-            pairs
-                .map(|(objective, present)| objective / present.max(f64::MIN_POSITIVE))
-                .sum()
+            // A consumption may be negative, if more is recuperated than drawn.
+            let relative = |(objective, present): (&f64, &f64)| match *present < 0.0 {
+                true => 1.0 + (objective - present) / present.abs(),
+                false => objective / present.max(f64::MIN_POSITIVE),
+            };
+            pairs.map(relative).sum()
         };
         let feasible = self.designs.iter().filter(|design| design.score.is_feasible());
         feasible.min_by(|a, b| sum(a).total_cmp(&sum(b))).cloned()

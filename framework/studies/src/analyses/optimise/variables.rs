@@ -9,16 +9,33 @@ use serde_json::Value;
 
 use crate::analyses::ranges::Range;
 use crate::analyses::{Built, Planner, Stopped};
-use crate::study::RangeEntry;
+use crate::study::{RangeEntry, Together, joined};
 use crate::varied::{Tie, Varied};
 
-/// A variable of a design: a number in a range, or one of several values.
+/// A variable of a design: a number in a range, one of several values, or values of several paths that are chosen together.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct VariableEntry {
-    /// The quantity, and its range if it is a number.
-    #[serde(flatten)]
-    pub range: RangeEntry,
-    /// Values to choose from, each as in a gearbox: numbers, designations, records of models. Not with a range.
+    /// Resolved path; with `*` all matches change together.
+    #[schemars(extend("x-refers-to" = "path"))]
+    pub path: Option<String>,
+    /// Several paths instead of one, whose `values` are chosen together.
+    #[serde(default)]
+    #[schemars(extend("x-refers-to" = "path"))]
+    pub paths: Vec<String>,
+    /// How several quantities change together.
+    #[serde(default)]
+    pub tie: Tie,
+    /// Half width of the range about the value of the gearbox, as a quantity of the path: `0.1 um`.
+    pub plus_minus: Option<Value>,
+    /// The same in percent of the value of the gearbox. [%]
+    #[schemars(range(min = 1e-9, max = 1000.0))]
+    pub percent: Option<f64>,
+    /// Lower end of the range.
+    pub from: Option<Value>,
+    /// Upper end of the range.
+    pub to: Option<Value>,
+    /// Values to choose from, each as in a gearbox: numbers, designations, records of models; with `paths` each a list with a value for each
+    /// path: `[[24, 83], [30, 77]]`. Not with a range.
     #[serde(default)]
     pub values: Vec<Value>,
     /// Designations of the shipped catalogue instead of values, for the path of a `designation`: those with these columns, such as
@@ -45,7 +62,7 @@ pub enum Scale {
 pub struct Variable {
     /// Name in the study.
     pub name: String,
-    /// Path as written.
+    /// Path as written, or several.
     pub path: String,
     kind: Kind,
 }
@@ -56,8 +73,8 @@ enum Kind {
         log: bool,
     },
     Choice {
-        values: Vec<Value>,
-        /// The value of the description among them.
+        varied: Together,
+        /// The values of the description among them.
         present: Option<usize>,
     },
 }
@@ -82,14 +99,13 @@ impl Variable {
     }
 
     fn new(cx: &Planner<'_>, at: &str, name: &str, entry: &VariableEntry, b: &Built<'_>) -> Result<Self, Stopped> {
-        let path = &entry.range.path;
-        let RangeEntry {
+        let VariableEntry {
             plus_minus,
             percent,
             from,
             to,
             ..
-        } = &entry.range;
+        } = entry;
         let is_range = plus_minus.is_some() || percent.is_some() || from.is_some() || to.is_some();
         let values = match entry.catalogue.is_empty() {
             true => entry.values.clone(),
@@ -99,8 +115,25 @@ impl Variable {
                 return Err(cx.wrong(at, message, "delete one of them"));
             }
         };
+        let varied = Together::new(entry.path.as_deref(), &entry.paths, &values);
+        let varied = varied.map_err(|(key, message, help)| cx.wrong(&format!("{at}{key}"), message, &help))?;
+        let path = varied.words();
         let kind = if values.is_empty() {
-            let range = Range::new(cx, at, &entry.range, b)?;
+            let Some(own) = entry.path.clone().filter(|_| entry.paths.is_empty()) else {
+                let message = "paths that move together need `values`";
+                let help = "list the values of each: `values: [[24, 83], [30, 77]]`, or vary one path and let others follow it by \
+                            `conditions.follows`";
+                return Err(cx.wrong(at, message, help));
+            };
+            let range = RangeEntry {
+                path: own,
+                tie: entry.tie,
+                plus_minus: plus_minus.clone(),
+                percent: *percent,
+                from: from.clone(),
+                to: to.clone(),
+            };
+            let range = Range::new(cx, at, &range, b)?;
             range.inside(cx, at)?;
             let log = entry.scale == Scale::Log;
             if log && range.ends[0] <= 0.0 {
@@ -125,15 +158,14 @@ impl Variable {
                 "add the values to choose from, the present one among them",
             ));
         } else {
-            let present = lookup(&b.resolved.value, path);
             Kind::Choice {
-                present: present.and_then(|described| values.iter().position(|value| value == described)),
-                values,
+                present: varied.described(&b.resolved.value),
+                varied,
             }
         };
         Ok(Self {
             name: name.to_owned(),
-            path: path.clone(),
+            path,
             kind,
         })
     }
@@ -142,7 +174,7 @@ impl Variable {
     pub fn gene(&self) -> Gene {
         match &self.kind {
             Kind::Number { .. } => Gene::Number,
-            Kind::Choice { values, .. } => Gene::Choice(values.len()),
+            Kind::Choice { varied, .. } => Gene::Choice(varied.rows.len()),
         }
     }
 
@@ -176,11 +208,16 @@ impl Variable {
         }
     }
 
+    /// Whether its choices depend on each other, so that some of them may be impossible.
+    pub fn is_joint(&self) -> bool {
+        matches!(&self.kind, Kind::Choice { varied, .. } if varied.paths.len() > 1)
+    }
+
     /// Overrides of a gene.
     pub fn overrides(&self, gene: f64) -> Vec<(String, Value)> {
         match &self.kind {
             Kind::Number { range, .. } => range.varied.overrides(self.number(gene).unwrap_or_default()).collect(),
-            Kind::Choice { values, .. } => vec![(self.path.clone(), values[gene as usize].clone())],
+            Kind::Choice { varied, .. } => varied.overrides(gene as usize),
         }
     }
 
@@ -201,7 +238,7 @@ impl Variable {
     pub fn words(&self, gene: f64) -> String {
         match &self.kind {
             Kind::Number { range, .. } => range.varied.words(self.number(gene).unwrap_or_default()),
-            Kind::Choice { values, .. } => in_words(&values[gene as usize]),
+            Kind::Choice { varied, .. } => joined(varied.rows[gene as usize].iter().map(in_words)),
         }
     }
 
@@ -212,9 +249,12 @@ impl Variable {
                 let start = range.varied.start();
                 start.map_or_else(|| "not stated".to_owned(), |number| range.varied.words(number))
             }
-            Kind::Choice { .. } => {
-                lookup(&b.resolved.value, &self.path).map_or_else(|| "not stated".to_owned(), in_words)
-            }
+            Kind::Choice { varied, .. } => joined(
+                varied
+                    .paths
+                    .iter()
+                    .map(|path| lookup(&b.resolved.value, path).map_or_else(|| "not stated".to_owned(), in_words)),
+            ),
         }
     }
 }
@@ -222,7 +262,7 @@ impl Variable {
 /// Designations of the catalogue of a path whose columns have given values.
 fn designations(cx: &Planner<'_>, at: &str, entry: &VariableEntry, b: &Built<'_>) -> Result<Vec<Value>, Stopped> {
     let at = &format!("{at}.catalogue");
-    let path = &entry.range.path;
+    let path = entry.path.as_deref().unwrap_or_default();
     let owner = path.strip_suffix(".designation");
     let table = owner.and_then(|owner| Some((owner, cx.language.catalogue(owner.split('.').next()?)?)));
     let Some((owner, table)) = table else {

@@ -7,10 +7,13 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::analyses::limits::Limit;
 use crate::analyses::limits::at_points::LimitColumn;
 use crate::analyses::numbers::word;
 use crate::analyses::ranges::PublishedCoefficient;
 use crate::analyses::{Head, Outcome};
+use crate::distinct::distinct;
+use crate::duty::Consumption;
 use crate::points::Note;
 use crate::table::Table;
 
@@ -20,8 +23,15 @@ pub struct SweepOutcome {
     /// Provenance.
     #[serde(flatten)]
     pub head: Head,
-    /// One for each model set at each value: the values of the second path outermost, the sets innermost.
+    /// One for each model set at each value: the values of the second path outermost, the sets innermost. None over cycles.
     pub sweep: Vec<SweepOfValue>,
+    /// The same for each cycle, innermost; none at points.
+    pub cycles: Vec<CycleOfSweep>,
+    /// Values that are left out because the gearbox cannot be built with them.
+    pub left_out: Vec<CombinationLeftOut>,
+    /// Limits of the study over cycles.
+    #[serde(skip)]
+    pub cycle_limits: Vec<LimitOfSweep>,
     /// Limits of the study at points.
     #[serde(skip)]
     pub limits: Vec<LimitColumn>,
@@ -64,6 +74,68 @@ pub struct SweepOfValue {
     /// Indices of the value and of the second value in the study.
     #[serde(skip)]
     pub places: [usize; 2],
+}
+
+/// Mean losses and consumption over one cycle with one model set at one value.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct CycleOfSweep {
+    /// Name of the set.
+    pub model_set: String,
+    /// Gear state of cycles without one.
+    pub gear: String,
+    /// Varied path, or several.
+    pub path: String,
+    /// The value as written in the study.
+    pub value: Value,
+    /// The second path and its value, if there are two.
+    pub second: Option<SecondValue>,
+    /// Name of the cycle.
+    pub cycle: String,
+    /// Names of the shares of the losses.
+    pub shares: Vec<String>,
+    /// Mean loss of the gearbox. [W]
+    pub mean_loss_w: f64,
+    /// Mean losses in the order of the shares. [W]
+    pub mean_losses_w: Vec<f64>,
+    /// Energy of the vehicle; absent without a battery or without distance.
+    pub consumption: Option<Consumption>,
+    /// Limited quantities in the order and the units of the limits of the study; null where one is unknown.
+    pub limited: Vec<Option<f64>>,
+    /// Notes of models.
+    pub notes: Vec<Note>,
+    /// Indices of the value and of the second value in the study.
+    #[serde(skip)]
+    pub places: [usize; 2],
+}
+
+/// A combination of values that is left out.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct CombinationLeftOut {
+    /// Paths and values.
+    pub values: String,
+    /// Why the gearbox cannot be built.
+    pub reason: String,
+}
+
+/// A limit of the study over cycles.
+#[derive(Debug, Clone)]
+pub struct LimitOfSweep {
+    /// Name in the study.
+    pub limit: String,
+    /// What is limited.
+    pub words: String,
+    /// Unit of its values.
+    pub unit: &'static str,
+}
+
+impl LimitOfSweep {
+    pub(super) fn new(limit: &Limit) -> Self {
+        Self {
+            limit: limit.name.clone(),
+            words: limit.words.clone(),
+            unit: limit.unit.symbol,
+        }
+    }
 }
 
 /// A second path and its value.
@@ -113,17 +185,19 @@ impl SweepOutcome {
 }
 
 impl NotesOfSet {
-    /// The notes of each set, from all of its values.
-    pub(super) fn all(sweep: &[SweepOfValue]) -> Vec<Self> {
-        let first = sweep.iter().take_while(|value| value.places == [0, 0]);
-        let set = |first: &SweepOfValue| {
-            let of_set = sweep.iter().filter(|value| value.model_set == first.model_set);
-            Self {
-                model_set: first.model_set.clone(),
-                notes: merged(of_set.flat_map(|value| &value.notes)),
-            }
+    /// The notes of each set, from all of its values: each with its set and its notes.
+    pub(super) fn all<'n>(values: impl Iterator<Item = (&'n String, &'n Vec<Note>)> + Clone) -> Vec<Self> {
+        let sets = distinct(values.clone().map(|(set, _)| set));
+        let set = |set: &String| Self {
+            model_set: set.clone(),
+            notes: merged(
+                values
+                    .clone()
+                    .filter(|(known, _)| *known == set)
+                    .flat_map(|(_, notes)| notes),
+            ),
         };
-        first.map(set).collect()
+        sets.into_iter().map(set).collect()
     }
 }
 
@@ -145,12 +219,66 @@ fn merged<'n>(notes: impl Iterator<Item = &'n Note>) -> Vec<Note> {
     all
 }
 
+impl SweepOutcome {
+    /// The results over cycles.
+    fn table_of_cycles(&self) -> Table {
+        let first = self.cycles.first();
+        let second = first.and_then(|value| value.second.as_ref());
+        let shares = first.map_or(&[][..], |value| &value.shares);
+        let with_path = "Value of the path as in the study";
+        let has_consumption = self.cycles.iter().any(|value| value.consumption.is_some());
+        Table::of(&self.head.analysis, &self.cycles)
+            .text("model_set", "Model set", |value| &value.model_set)
+            .text("gear", "Gear", |value| &value.gear)
+            .each(first.map(|value| &value.path), |table, path| {
+                table.text(path, with_path, |value| word(&value.value))
+            })
+            .each(second.map(|second| &second.path), |table, path| {
+                table.text(path, with_path, |value| {
+                    value
+                        .second
+                        .as_ref()
+                        .map(|second| word(&second.value))
+                        .unwrap_or_default()
+                })
+            })
+            .text("cycle", "Duty cycle", |value| &value.cycle)
+            .number("mean_loss_w", "W", "Mean loss of the gearbox", |value| {
+                value.mean_loss_w
+            })
+            .each(shares.iter().enumerate(), |table, (i, share)| {
+                let meaning = format!("Mean loss of {share}");
+                table.number(format!("{share}_w"), "W", meaning, |value| value.mean_losses_w[i])
+            })
+            .each(
+                Consumption::COLUMNS.iter().filter(|_| has_consumption),
+                |table, column| {
+                    table.number(column.name, column.unit, column.meaning, |value| {
+                        value.consumption.as_ref().and_then(column.read)
+                    })
+                },
+            )
+            .each(self.cycle_limits.iter().enumerate(), |table, (i, limit)| {
+                table.number(
+                    format!("{}_limited", limit.limit),
+                    limit.unit,
+                    limit.words.clone(),
+                    |value| value.limited.get(i).copied().flatten(),
+                )
+            })
+            .finish()
+    }
+}
+
 impl Outcome for SweepOutcome {
     fn head(&self) -> &Head {
         &self.head
     }
 
     fn tables(&self) -> Vec<Table> {
+        if !self.cycles.is_empty() {
+            return vec![self.table_of_cycles()];
+        }
         let first = self.sweep.first();
         let second = first.and_then(|value| value.second.as_ref());
         let shares = first.map_or(&[][..], |value| &value.shares);

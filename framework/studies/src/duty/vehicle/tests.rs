@@ -14,7 +14,8 @@ fn sedan() -> VehicleEntry {
         rolling_resistance: None,
         air_density: None,
         tyre_radius: 0.3357,
-        rotating_mass_factor: 1.04,
+        rotating_mass_factor: Some(1.04),
+        inertia: None,
         regeneration: RegenerationEntry::Word(NoRegeneration::None),
         efficiency: None,
         battery: None,
@@ -142,4 +143,44 @@ fn a_downhill_slope_that_equals_the_road_load_asks_no_torque() {
     let sine = car.road_load(v, 0.0) / (car.mass * car.gravity);
     let grade = -sine / (1.0 - sine * sine).sqrt();
     assert!(car.force(v, 0.0, grade).abs() < 1e-9);
+}
+
+/// k = 1 + (J_wheels + J_rotor i2) / (m r2), by hand.
+#[test]
+fn the_mass_factor_follows_the_ratio() {
+    let inertia = InertiaEntry {
+        wheels: 3.6,
+        rotor: 0.05,
+        shafts: Ordered(vec![("layshaft".to_owned(), ShaftInertiaEntry { inertia: 0.01 })]),
+    };
+    let entry = VehicleEntry {
+        rotating_mass_factor: None,
+        inertia: Some(inertia),
+        ..sedan()
+    };
+    let car = entry.vehicle("vehicle").unwrap();
+    for (ratio, factor) in [
+        (9.036_290, 1.035_359),
+        (5.153, 1.022_68),
+        (12.0, 1.049_707),
+        (7.0, 1.027_845),
+    ] {
+        let found = car.mass_factor(ratio, |_| 0.0);
+        assert!((found - factor).abs() < 6e-7, "{ratio}: {found}");
+    }
+    // A shaft at 3 times the speed of the wheels adds 0.01 * 9 kg m2.
+    let [with, without] = [3.0, 0.0].map(|speed| car.mass_factor(9.0, |_| speed));
+    assert!(((with - without) - 0.09 / (1928.0 * 0.3357 * 0.3357)).abs() < 1e-15);
+    // The force without these parts and their torque are the force with the factor.
+    let torque = car.force(20.0, 1.0, 0.0) * car.tyre_radius + car.inertia_torque(1.04, 1.0);
+    let fixed = sedan().vehicle("vehicle").unwrap();
+    assert!(
+        close(torque, fixed.force(20.0, 1.0, 0.0) * fixed.tyre_radius),
+        "{torque}"
+    );
+    let both = VehicleEntry {
+        rotating_mass_factor: Some(1.04),
+        ..entry
+    };
+    assert!(both.vehicle("vehicle").is_err());
 }
