@@ -101,9 +101,6 @@ gearloss_document::codes! {
     OIL_NETWORK = "E0404", "invalid oil network",
         cause: "Elements of the oil network are not joined to a pump or to the sump, or their values contradict each other.",
         help: "Join them, or correct the values; [the page](oil-network.md) shows a complete network.";
-    FOLLOWS = "E0520", "invalid formula of a value that follows others",
-        cause: "A formula under `conditions.follows` cannot be read, depends on something that is not a number, or its value is changed directly as well.",
-        help: "Correct the formula, or change only what it depends on.";
     PLAUSIBILITY = "W0301", "probably wrong description",
         cause: "The description is valid, but a value is unusual enough to be a mistake.",
         help: "Check the value. If it is intended, no change is needed.";

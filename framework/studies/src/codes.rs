@@ -22,6 +22,9 @@ gearloss_framework::document::codes! {
     BROKEN_OFF = "E0507", "simulation of a duty cycle stopped early",
         cause: "There is no solution at some time of the duty cycle.",
         help: "The results up to that time are kept; examine the point with `explain`.";
+    FOLLOWS = "E0520", "invalid formula of a value that follows others",
+        cause: "A formula under `conditions.follows` cannot be read, depends on something that is not a number, or its value is changed directly as well.",
+        help: "Correct the formula, or change only what it depends on.";
     OBJECTIVE = "E0521", "invalid objective of a search",
         cause: "`minimise` names a quantity that the cycles do not have, such as the consumption of a vehicle without a battery.",
         help: "Describe the battery and the machine, or minimise the mean loss.";

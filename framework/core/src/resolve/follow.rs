@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use serde_json::Value;
 
 use super::{ValueSource, apply, lookup, matches, meets, paths};
-use crate::codes;
 use crate::document::Diagnostic;
 use crate::formula::Formula;
 use crate::language::Language;
@@ -28,7 +27,7 @@ pub(super) fn follow<'f>(
         {
             let message = format!("`{target}` follows `{text}`, so it has no value of its own");
             let help = "change what it follows instead, or delete the formula";
-            found.push(Diagnostic::error(target, message).help(help).code(codes::FOLLOWS));
+            found.push(Diagnostic::error(target, message).help(help));
             continue;
         }
         match number(language, value, target, text) {
@@ -47,7 +46,7 @@ pub(super) fn follow<'f>(
 
 /// The value of a formula, a number in the unit of its target.
 fn number(language: &Language, value: &Value, target: &str, text: &str) -> Result<Value, Diagnostic> {
-    let wrong = |message: String| Diagnostic::error(target, message).code(codes::FOLLOWS);
+    let wrong = |message: String| Diagnostic::error(target, message);
     let names = paths_in(text);
     let formula = Formula::compile(text, &names).map_err(|fault| {
         let error = wrong(format!("formula `{text}`: {fault}"));

@@ -304,7 +304,12 @@ impl Study {
                 match (changed, set) {
                     _ if follower.is_some() => {
                         let path = follower.unwrap_or_default();
-                        Some(finding.clone().moved("conditions.follows", path))
+                        // Resolving gives it the code of a choice.
+                        let finding = Diagnostic {
+                            code: Some(codes::FOLLOWS),
+                            ..finding.clone()
+                        };
+                        Some(finding.moved("conditions.follows", path))
                     }
                     (Some((path, place)), _) => Some(finding.clone().moved(place, path)),
                     (None, Some(path)) => Some(finding.clone().moved("conditions.set", path)),
