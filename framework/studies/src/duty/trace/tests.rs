@@ -31,7 +31,7 @@ fn vehicle() -> Vehicle {
             c: 1.0,
         }),
         tyre_radius: 0.5,
-        rotating_mass_factor: Some(1.0),
+        rotating_mass_factor: 1.0,
         inertia: None,
         gravity: STANDARD_GRAVITY,
         regeneration: None,
@@ -46,7 +46,7 @@ fn a_course_of_speeds_becomes_intervals_at_the_wheels() {
     assert_eq!(intervals.len(), 3);
     // v = 1 m/s, a = 2 m/s2, then -2 m/s2: 2000 + 101 N and -2000 + 101 N.
     for (interval, torque) in intervals.iter().zip([1050.5, -949.5]) {
-        let Demand::Wheel { torque: t, speed } = interval.demand else {
+        let Demand::Wheel { torque: t, speed, .. } = interval.demand else {
             panic!("{interval:?}")
         };
         assert!((t - torque).abs() < 1e-9 && (speed - 2.0).abs() < 1e-12, "{interval:?}");
