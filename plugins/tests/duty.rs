@@ -107,7 +107,7 @@ fn duty(name: &str) -> [f64; 5] {
     let (mut driven, mut regained, mut squares, mut fastest, mut turns, mut time) = (0.0, 0.0, 0.0, 0.0_f64, 0.0, 0.0);
     for interval in cycle(name).unwrap().intervals(Some(&car)).unwrap() {
         time += interval.duration;
-        let Demand::Wheel { torque, speed } = interval.demand else {
+        let Demand::Wheel { torque, speed, .. } = interval.demand else {
             assert_eq!(interval.demand, Demand::Rest);
             continue;
         };
