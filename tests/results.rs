@@ -28,8 +28,9 @@ const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 const OPEN: [&str; 6] = ["bound", "set", "terms_w", "value", "model", "limit_values"];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 14] = [
+const OPTIONAL: [&str; 15] = [
     "crossed_stages",
+    "lengthwise_sliding_m_s",
     "data",
     "oil_network",
     "preloads",

@@ -1,9 +1,11 @@
 //! Every combination of the models of some mechanisms: ranked by a measurement, or their spread.
 
+mod band;
 mod candidates;
 pub(super) mod entrants;
 mod entry;
 mod field;
+mod law_loss;
 mod marks;
 mod measurements;
 mod model_error;

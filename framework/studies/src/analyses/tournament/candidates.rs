@@ -8,8 +8,9 @@ use serde_json::Value;
 use super::super::numbers::RPM;
 use super::super::{Built, Engine, Stopped};
 use super::entrants::{Entrants, first_message};
+use super::law_loss::LossOfLaw;
 use super::marks::{Mark, marks};
-use super::model_error::{Errors, LossOfLaw};
+use super::model_error::Errors;
 use super::slot::{Candidate, Slot};
 use crate::points::{Field, GridResult, PointResult, Points, notes, run_grid};
 

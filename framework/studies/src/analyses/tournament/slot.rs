@@ -8,8 +8,8 @@ use serde_json::{Map, Value};
 
 use super::super::{Planner, Stopped};
 use super::entry::CandidatesEntry;
+use super::law_loss::LossOfLaw;
 use super::marks::Mark;
-use super::model_error::LossOfLaw;
 
 /// A mechanism with varied models.
 #[derive(Clone)]

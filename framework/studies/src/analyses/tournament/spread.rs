@@ -5,10 +5,11 @@ use std::sync::Arc;
 use super::super::axes::grid_axes;
 use super::super::numbers::{RPM, tidy};
 use super::super::{Built, Engine, Planner, Run, Stopped};
+use super::band::bands;
 use super::entrants::Entrants;
 use super::entry::TournamentEntry;
 use super::field::Field;
-use super::model_error::{Errors, bands};
+use super::model_error::Errors;
 use super::outcome::{ShareOfSpread, Spread, SpreadPoint};
 use super::slot::Slot;
 
