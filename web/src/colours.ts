@@ -25,14 +25,16 @@ export const MECHANISMS: Record<string, string> = {
   synchronizer: "#5d55c8",
   auxiliary: PALETTE[7],
   chain: PALETTE[10],
-  differential: PALETTE[11],
-  joint: PALETTE[17],
+  differential: "#702070",
   others: "#a9b0b8",
 };
 
 /** The mechanism of the components of a section of the gearbox. */
 const SECTIONS: Record<string, string> = {
   meshes: "gear_mesh",
+  bevel_meshes: "gear_mesh",
+  worm_meshes: "gear_mesh",
+  crossed_helical_meshes: "gear_mesh",
   gears: "gear_drag",
   bearings: "bearing",
   seals: "seal",
@@ -42,7 +44,6 @@ const SECTIONS: Record<string, string> = {
   auxiliaries: "auxiliary",
   chains: "chain",
   differentials: "differential",
-  joints: "joint",
 };
 
 /** Shares of a loss that are the loss of a mechanism, or a part of it. */
@@ -52,6 +53,9 @@ const SHARES: Record<string, [mechanism: string, part: boolean]> = {
   "bearings, load-dependent": ["bearing", false],
   "bearings, load-independent": ["bearing", true],
   seals: ["seal", false],
+  bevel_mesh: ["gear_mesh", true],
+  worm_mesh: ["gear_mesh", true],
+  crossed_helical_mesh: ["gear_mesh", true],
 };
 
 /** The mechanism of a name, and whether it is one of several parts with this mechanism: `bearings.B2` is one of the bearings. */

@@ -58,10 +58,10 @@ export function axisNumbers(ticks: number[]): string[] {
 }
 
 /** Sections of a gearbox: one of its components. */
-const SECTIONS = new Map(Object.entries({ auxiliaries: "auxiliary", bearings: "bearing", chains: "chain", clutches: "clutch", couplings: "coupling", differentials: "differential", gears: "gear", joints: "joint", meshes: "mesh", planetary_sets: "planetary set", seals: "seal", shafts: "shaft" }));
+const SECTIONS = new Map(Object.entries({ auxiliaries: "auxiliary", bearings: "bearing", bevel_meshes: "bevel mesh", chains: "chain", clutches: "clutch", couplings: "coupling", crossed_helical_meshes: "crossed helical mesh", differentials: "differential", gears: "gear", joints: "joint", meshes: "mesh", planetary_sets: "planetary set", seals: "seal", shafts: "shaft", worm_meshes: "worm mesh" }));
 
 /** Mechanisms by their key. */
-const MECHANISMS = new Map(Object.entries({ auxiliary: "auxiliaries", bearing: "bearings", chain: "chains and belts", clutch: "clutches", differential: "differentials", gear_drag: "gear drag", gear_mesh: "gear meshes", joint: "joints", planetary_drag: "planetary drag", seal: "seals", synchronizer: "synchronizers" }));
+const MECHANISMS = new Map(Object.entries({ auxiliary: "auxiliaries", bearing: "bearings", bevel_mesh: "bevel meshes", chain: "chains and belts", clutch: "clutches", crossed_helical_mesh: "crossed helical meshes", differential: "differentials", gear_drag: "gear drag", gear_mesh: "gear meshes", planetary_drag: "planetary drag", seal: "seals", synchronizer: "synchronizers", worm_mesh: "worm meshes" }));
 
 /** Mechanisms and components in words: `gear_mesh` is "gear meshes", `bearings.B2` is "bearing B2". */
 function named(text: string): string {

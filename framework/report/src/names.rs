@@ -26,11 +26,13 @@ const SECTIONS: [[&str; 3]; 15] = [
 ];
 
 /// Mechanisms by their key.
-const MECHANISMS: [[&str; 2]; 11] = [
+const MECHANISMS: [[&str; 2]; 14] = [
     ["auxiliary", "auxiliaries"],
     ["bearing", "bearings"],
+    ["bevel_mesh", "bevel meshes"],
     ["chain", "chains and belts"],
     ["clutch", "clutches"],
+    ["crossed_helical_mesh", "crossed helical meshes"],
     ["differential", "differentials"],
     ["gear_drag", "gear drag"],
     ["gear_mesh", "gear meshes"],
@@ -38,6 +40,7 @@ const MECHANISMS: [[&str; 2]; 11] = [
     ["planetary_drag", "planetary drag"],
     ["seal", "seals"],
     ["synchronizer", "synchronizers"],
+    ["worm_mesh", "worm meshes"],
 ];
 
 /// Ends of the paths of quantities.

@@ -26,7 +26,7 @@ pub(super) const COLOURS: [RGBColor; 8] = [
 ];
 
 /// Colours of the mechanisms, which are those of the report.
-const MECHANISMS: [(&str, RGBColor); 12] = [
+const MECHANISMS: [(&str, RGBColor); 11] = [
     ("gear_mesh", RGBColor(0x1f, 0x77, 0xb4)),
     ("bearing", RGBColor(0xe6, 0x9f, 0x00)),
     ("gear_drag", RGBColor(0x12, 0xb4, 0x88)),
@@ -36,13 +36,12 @@ const MECHANISMS: [(&str, RGBColor); 12] = [
     ("synchronizer", RGBColor(0x5d, 0x55, 0xc8)),
     ("auxiliary", RGBColor(0xc1, 0xdd, 0x59)),
     ("chain", RGBColor(0x6f, 0x52, 0x1c)),
-    ("differential", RGBColor(0xf1, 0x79, 0xb2)),
-    ("joint", RGBColor(0x56, 0xa5, 0x9b)),
+    ("differential", RGBColor(0x70, 0x20, 0x70)),
     ("others", RGBColor(0xa9, 0xb0, 0xb8)),
 ];
 
 /// Mechanisms of the components of a section of the gearbox.
-const SECTIONS: [(&str, &str); 14] = [
+const SECTIONS: [(&str, &str); 13] = [
     ("meshes", "gear_mesh"),
     ("bevel_meshes", "gear_mesh"),
     ("worm_meshes", "gear_mesh"),
@@ -56,7 +55,6 @@ const SECTIONS: [(&str, &str); 14] = [
     ("auxiliaries", "auxiliary"),
     ("chains", "chain"),
     ("differentials", "differential"),
-    ("joints", "joint"),
 ];
 
 /// Shares of black (negative) or white in the shades of several components with one mechanism.
