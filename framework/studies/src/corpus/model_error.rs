@@ -165,6 +165,9 @@ mod tests {
 
     use super::*;
 
+    /// So many that a share is known to within a percentage point.
+    const SIMULATIONS: u32 = 1000;
+
     const HEAD: &str = "mechanism,model,nested,part,set,kind,seen,ratio,least,greatest,in_range,error,scatter\n";
 
     fn law(lines: &str) -> ErrorOfLaw {
@@ -191,7 +194,7 @@ mod tests {
     fn the_factor_contains_the_bias() {
         // A law that gives twice the measured loss in every set.
         let lines: String = (0..6)
-            .map(|i| format!("bearing,law,,,s{i},measured,no,2,1.9,2.1,1,0.01,0.02\n"))
+            .map(|i| format!("bearing,law,,,s{i},measured,no,2,1.95,2.05,1,0.01,0.02\n"))
             .collect();
         let [low, middle, high] = law(&lines).band().unwrap();
         assert!(
@@ -216,7 +219,7 @@ mod tests {
         for (sets, between, within) in [(3, 0.3, 0.2), (5, 0.4, 0.3), (8, 0.2, 0.3)] {
             let bias = 0.25;
             let mut covered = 0.0;
-            for _ in 0..200 {
+            for _ in 0..SIMULATIONS {
                 let mut lines = String::new();
                 for set in 0..sets {
                     let error = 0.05 + 0.05 * (set % 3) as f64;
@@ -239,7 +242,7 @@ mod tests {
                 let [low, _, high] = law(&lines).band().unwrap();
                 covered += f64::from((low..=high).contains(&(1.0 / ratio)));
             }
-            let share = covered / 200.0;
+            let share = covered / f64::from(SIMULATIONS);
             assert!(
                 (0.90..=0.98).contains(&share),
                 "{sets} sets, {between}, {within}: {share}"
