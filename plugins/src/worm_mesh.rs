@@ -36,18 +36,18 @@ pub(crate) fn of_friction<R: Real>(
     at: &WormMeshAt<'_, R>,
     friction: impl FnOnce(&WormMeshAt<'_, R>) -> R,
     tan_rho: impl FnOnce(R) -> R,
-) -> Result<Loss<R>, Undefined> {
+) -> Loss<R> {
     let idle = at.speed.is_zero() | at.torque.is_zero();
     if idle.all() {
         at.branch("no speed or no torque: no loss");
-        return Ok(Loss::POWERS);
+        return Loss::POWERS;
     }
     let at = &at.with(|to| to.notes = to.notes.among(!idle));
     let mu = at.observe(&MU, friction(at));
     let efficiency = efficiency(at, tan_rho(mu));
     let input = at.show("P_in", "W", at.input());
     let watts = at.show("P_Vz", "W", input * (R::constant(1.0) - efficiency));
-    Ok(Loss::POWERS.with(&SLIDING, R::select(idle, R::ZERO, watts)))
+    Loss::POWERS.with(&SLIDING, R::select(idle, R::ZERO, watts))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! friction force F_n mu has an arm about both axes, so that the driving gear balances T = F_n (a_1 + <mu v12/|v12| v_1>/omega_1) if it is the
 //! pinion. For constant friction at the mean point alone this is the efficiency (1 + mu tan(beta_2)/cos(alpha_n))/(1 + mu
 //! tan(beta_1)/cos(alpha_n)) of hypoid gears, and without an offset the loss factor of the virtual gears, pi (u + 1)/(z_1 u cos(beta_b)) (eps_1^2
-//! + eps_2^2)/eps_alpha with even load.
+//! \+ eps_2^2)/eps_alpha with even load.
 //! The load is shared evenly along the path by default, an upper bound: crowned teeth carry more in the middle of the path, where profile
 //! sliding is small. The line load is the normal force over the length of the line of contact of the virtual gears, whose face width is 0.85 of
 //! the real one without a contact pattern. ISO 10300 has a higher peak in the middle, by 20 % for its hypoid example.

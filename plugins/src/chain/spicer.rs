@@ -31,7 +31,7 @@ coefficients! {
     /// The constant of the friction of a pin.
     struct Constants {
         /// Factor of the friction of a pin: pi/2 for distributed pressure, one for contact along a line.
-        contact = 1.5707963267948966, in 1.0..=1.6;
+        contact = std::f64::consts::FRAC_PI_2, in 1.0..=1.6;
     }
 }
 

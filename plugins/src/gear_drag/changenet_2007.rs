@@ -116,15 +116,15 @@ impl GearDragModel for Changenet {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
-        self.rise.applied(at, |at| self.alone(at))
+        self.rise.applied(at, |at| Ok(self.alone(at)))
     }
 }
 
 impl Changenet {
     /// The law without swell.
-    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+    fn alone(&self, at: &GearDragAt<'_>) -> Loss {
         let Some(gear) = Dipping::of(at) else {
-            return Ok(Loss::MOMENTS);
+            return Loss::MOMENTS;
         };
         let (body, diameter) = (&at.part.gear, 2.0 * gear.radius);
         let re = at.observe(&REYNOLDS, gear.omega * gear.radius * body.facewidth / at.nu);
@@ -145,7 +145,7 @@ impl Changenet {
             body.facewidth / diameter,
         );
         let torque = gear.torque(at.rho, at.observe(&C_M, c_m));
-        Ok(Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque)))
+        Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque))
     }
 }
 

@@ -176,15 +176,15 @@ impl GearDragModel for Churning {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
-        self.rise.applied(at, |at| self.alone(at))
+        self.rise.applied(at, |at| Ok(self.alone(at)))
     }
 }
 
 impl Churning {
     /// The law without swell.
-    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+    fn alone(&self, at: &GearDragAt<'_>) -> Loss {
         let Some(dipping) = Dipping::of(at) else {
-            return Ok(Loss::MOMENTS);
+            return Loss::MOMENTS;
         };
         let gear = &at.part.gear;
         let Dipping { omega, radius, dip, .. } = dipping;
@@ -218,7 +218,7 @@ impl Churning {
         });
         let c_m = at.observe(&C_M, c_m(&self.coefficients, &self.size, re, gamma, fr, dip / diameter));
         let torque = dipping.torque(at.rho, c_m);
-        Ok(Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque)))
+        Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque))
     }
 }
 

@@ -106,22 +106,22 @@ impl GearDragModel for Iso14179 {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
-        self.rise.applied(at, |at| self.alone(at))
+        self.rise.applied(at, |at| Ok(self.alone(at)))
     }
 }
 
 impl Iso14179 {
     /// The law without swell.
-    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+    fn alone(&self, at: &GearDragAt<'_>) -> Loss {
         let gear = &at.part.gear;
         let f_g = at.show("f_g", "-", (at.tip_dip / gear.tip_diameter).clamp(0.0, 1.0));
         let (nu, n, d) = (at.nu.mm2_s(), at.speed.abs().rpm(), gear.tip_diameter.mm());
         let m_t = gear.normal_module.mm() / gear.helix_angle.cos();
         let sides = self.sides(f_g, nu, n, d);
         let teeth = self.teeth(f_g, nu, n, d, gear.facewidth.mm(), m_t, gear.helix_angle);
-        Ok(Loss::POWERS
+        Loss::POWERS
             .with(&SIDES, at.show("P_sides", "W", sides))
-            .with(&TEETH, at.show("P_teeth", "W", teeth)))
+            .with(&TEETH, at.show("P_teeth", "W", teeth))
     }
 }
 

@@ -115,17 +115,17 @@ impl GearDragModel for Mauz {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
-        self.rise.applied(at, |at| self.alone(at))
+        self.rise.applied(at, |at| Ok(self.alone(at)))
     }
 }
 
 impl Mauz {
     /// The law without swell.
-    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+    fn alone(&self, at: &GearDragAt<'_>) -> Loss {
         let gear = &at.part.gear;
         if at.tip_dip <= 0.0 || at.speed == 0.0 {
             at.branch("dry or at standstill: no churning");
-            return Ok(Loss::MOMENTS);
+            return Loss::MOMENTS;
         }
         let r_a = 0.5 * gear.tip_diameter;
         let wetted = Wetted::new(r_a, at.tip_dip, gear.facewidth, 0.0, 0.0, 0.0, 0.0);
@@ -135,7 +135,7 @@ impl Mauz {
         let walls = self.walls(v_t, r_a, at.part.radial_clearance, at.part.axial_clearance);
         let walls = at.show("C_WZ C_WA", "-", walls);
         let torque = self.torque(at.eta, v_t, surface, r_a, gear.normal_module, walls);
-        Ok(Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque)))
+        Loss::MOMENTS.with(&TERM, at.show("T", "Nm", torque))
     }
 }
 

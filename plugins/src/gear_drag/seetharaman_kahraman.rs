@@ -95,18 +95,18 @@ impl GearDragModel for SeetharamanKahraman {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
-        self.rise.applied(at, |at| self.alone(at))
+        self.rise.applied(at, |at| Ok(self.alone(at)))
     }
 }
 
 impl SeetharamanKahraman {
     /// The law without swell.
-    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+    fn alone(&self, at: &GearDragAt<'_>) -> Loss {
         let gear = &at.part.gear;
         let (r, omega) = (0.5 * gear.tip_diameter, at.speed.abs());
         let depth = at.show("h/r_o", "-", at.tip_dip / r);
         at.show("r_o", "mm", r.mm());
-        Ok(Loss::POWERS
+        Loss::POWERS
             .with(
                 &RIM,
                 at.show(
@@ -122,7 +122,7 @@ impl SeetharamanKahraman {
                     "W",
                     2.0 * face(&self.coefficients, at.rho, at.nu, r, omega, depth),
                 ),
-            ))
+            )
     }
 }
 

@@ -137,25 +137,25 @@ impl GearDragModel for Shore {
     }
 
     fn loss(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
-        self.rise.applied(at, |at| self.alone(at))
+        self.rise.applied(at, |at| Ok(self.alone(at)))
     }
 }
 
 impl Shore {
     /// The law without swell.
-    fn alone(&self, at: &GearDragAt<'_>) -> Result<Loss, Undefined> {
+    fn alone(&self, at: &GearDragAt<'_>) -> Loss {
         let gear = &at.part.gear;
         let omega = at.speed.abs();
         if at.dip <= 0.0 || omega == 0.0 {
             at.branch("dry or at standstill: no churning");
-            return Ok(Loss::MOMENTS);
+            return Loss::MOMENTS;
         }
         let (r_a, r_p) = (0.5 * gear.tip_diameter, 0.5 * gear.reference_diameter);
         at.check(&SPEED, omega * r_p);
         let h_0 = at.dip.min(gear.reference_diameter);
         let (h_eff, torque) = self.torque(r_a, r_p, gear.facewidth, h_0, at.nu, at.rho, omega);
         at.observe(&H_EFF, h_eff.mm());
-        Ok(Loss::MOMENTS.with(&TERM, at.show("C_ch", "Nm", torque)))
+        Loss::MOMENTS.with(&TERM, at.show("C_ch", "Nm", torque))
     }
 }
 

@@ -59,7 +59,8 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Both, Diagnostic> {
 impl Rating<BevelMesh> for Both {
     fn rate(&self, at: &BevelMeshAt<'_>, to: &mut Rated) -> Result<(), Undefined> {
         let flank = at.flank()?;
-        self.0[flank].rate_flanks(&at.on_flank(flank), to)
+        self.0[flank].rate_flanks(&at.on_flank(flank), to);
+        Ok(())
     }
 }
 

@@ -82,7 +82,8 @@ fn prepare(params: FlankContact, cx: &mut Build<'_>) -> Result<Prepared, Diagnos
 
 impl Rating<GearMesh> for Prepared {
     fn rate(&self, at: &GearMeshAt<'_>, to: &mut Rated) -> Result<(), Undefined> {
-        self.rate_flanks(at, to)
+        self.rate_flanks(at, to);
+        Ok(())
     }
 }
 
@@ -96,14 +97,14 @@ impl Prepared {
         }
     }
 
-    pub(super) fn rate_flanks(&self, at: &GearMeshAt<'_>, to: &mut Rated) -> Result<(), Undefined> {
+    pub(super) fn rate_flanks(&self, at: &GearMeshAt<'_>, to: &mut Rated) {
         let Some(path) = &self.path else {
             at.branch("no path of contact of involute flanks");
-            return Ok(());
+            return;
         };
         if at.torque <= 0.0 {
             at.branch("no torque");
-            return Ok(());
+            return;
         }
         let params = &self.params;
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
@@ -124,7 +125,7 @@ impl Prepared {
         to.add_bounded(&PRESSURE, at.show("p_H", "MPa", pressure * 1e-6), bound);
         if at.speed == 0.0 {
             at.branch("no speed: no film");
-            return Ok(());
+            return;
         }
         to.add(&FILM, at.show("h_min", "um", thinnest.um()));
         at.show("Rq", "um", at.part.rq.um());
@@ -136,7 +137,6 @@ impl Prepared {
             let safety = at.show("S_lambda", "-", of_mean / permissible);
             to.add_bounded(&MICROPITTING, safety, Bound::at_least(params.least_safety));
         }
-        Ok(())
     }
 }
 

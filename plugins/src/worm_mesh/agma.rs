@@ -66,11 +66,11 @@ impl Agma {
 impl WormMeshLaw for Agma {
     #[inline(always)]
     fn loss<R: Answers>(&self, at: &WormMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
-        of_friction(
+        Ok(of_friction(
             at,
             |at| self.mu(at.show("v_g", "m/s", at.sliding())),
             |mu| at.part.pair.tan_rho(mu),
-        )
+        ))
     }
 
     fn at_rest(&self, part: &WormPart) -> Option<AtRest> {

@@ -424,7 +424,7 @@ impl WormMeshLaw for Din3996 {
         let pair = &at.part.pair;
         at.check(&SIZE, R::constant(pair.centre_distance.mm()));
         // The standard has no pressure angle here.
-        let loss = of_friction(at, |at| self.mu(at), |mu| mu)?;
+        let loss = of_friction(at, |at| self.mu(at), |mu| mu);
         let teeth = loss.value(SLIDING.index);
         let idle = at.speed.is_zero() | at.torque.is_zero();
         if !idle.all() {

@@ -48,12 +48,11 @@ enum Efficiency {
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Efficiency, Diagnostic> {
     match (params.worm_drives, params.file) {
         (Some(forward), None) => {
-            let back = match params.wheel_drives {
-                Some(back) => back,
-                None => {
-                    let pair = &cx.own_part::<WormMesh>()?.pair;
-                    pair.efficiencies(pair.tan_rho_of(forward))[1]
-                }
+            let back = if let Some(back) = params.wheel_drives {
+                back
+            } else {
+                let pair = &cx.own_part::<WormMesh>()?.pair;
+                pair.efficiencies(pair.tan_rho_of(forward))[1]
             };
             Ok(Efficiency::Values([forward, back]))
         }

@@ -27,7 +27,11 @@ pub struct Friction {
 impl WormMeshLaw for Friction {
     #[inline(always)]
     fn loss<R: Answers>(&self, at: &WormMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
-        of_friction(at, |_| R::constant(self.value), |mu| at.part.pair.tan_rho(mu))
+        Ok(of_friction(
+            at,
+            |_| R::constant(self.value),
+            |mu| at.part.pair.tan_rho(mu),
+        ))
     }
 
     fn at_rest(&self, part: &WormPart) -> Option<AtRest> {

@@ -114,7 +114,7 @@ impl Transmission {
             }
             PartKind::Transfer(i) => {
                 let transfer = &self.transfers[i];
-                let speed = self.transfer_speed(transfer, speeds);
+                let speed = super::transfers::transfer_speed(transfer, speeds);
                 let factor = self.transfer_grip(transfer, speeds) * transfer.loss_factor;
                 (&m.transfer_losses[i], speed, factor, speed.is_zero())
             }

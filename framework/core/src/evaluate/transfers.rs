@@ -45,7 +45,7 @@ impl Transmission {
         book.clear(transfer.law.notes());
         let drives = flow.drives[number];
         let answer = self.transfer_loss(case, (index, torque, drives), &state, &book, flow.live);
-        let speed = self.transfer_speed(transfer, state.speeds);
+        let speed = transfer_speed(transfer, state.speeds);
         flow.mesh_loss[number] = match &answer {
             Ok(loss) => {
                 let watts = loss.total_watts(speed) * transfer.loss_factor;
@@ -100,26 +100,26 @@ impl Transmission {
         let row = &case.flow.meshes()[self.meshes.len() + index];
         Side {
             torque: torque.abs(),
-            speed: self.transfer_speed(&self.transfers[index], state.speeds),
+            speed: transfer_speed(&self.transfers[index], state.speeds),
             first_drives: R::constant(f64::from(u8::from(drives != Drive::Second))),
             ratio: -row.sz2 / row.z1,
         }
     }
 
-    /// Speed of the first side of a row in the frame of its carrier; zero if it is rounding error. \[rad/s\]
-    #[inline(always)]
-    pub(super) fn transfer_speed<R: Real>(&self, transfer: &Transfer, speeds: &[R]) -> R {
-        let own = speeds[transfer.seat.members[0]];
-        let carrier = carrier_speed(transfer, speeds);
-        let rounding = own.abs().max(carrier.abs()) * 1e-12;
-        R::select((own - carrier).abs().is_above(rounding), own - carrier, R::ZERO)
-    }
-
     /// Share of full friction: both sides of a differential rotate together with its case.
     #[inline(always)]
     pub(super) fn transfer_grip<R: Real>(&self, transfer: &Transfer, speeds: &[R]) -> R {
-        self.grip(self.transfer_speed(transfer, speeds), carrier_speed(transfer, speeds))
+        self.grip(transfer_speed(transfer, speeds), carrier_speed(transfer, speeds))
     }
+}
+
+/// Speed of the first side of a row in the frame of its carrier; zero if it is rounding error. \[rad/s\]
+#[inline(always)]
+pub(super) fn transfer_speed<R: Real>(transfer: &Transfer, speeds: &[R]) -> R {
+    let own = speeds[transfer.seat.members[0]];
+    let carrier = carrier_speed(transfer, speeds);
+    let rounding = own.abs().max(carrier.abs()) * 1e-12;
+    R::select((own - carrier).abs().is_above(rounding), own - carrier, R::ZERO)
 }
 
 impl Solution<'_> {

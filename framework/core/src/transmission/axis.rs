@@ -154,6 +154,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::description::DirectedAxis;
     use proptest::prelude::*;

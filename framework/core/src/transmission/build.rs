@@ -1,5 +1,6 @@
 //! From the resolved description to the transmission; reports all errors of this stage at once.
 
+use super::case::Cases;
 use super::drag_models::Drags;
 use super::drags::Covered;
 use super::gearing::gearing;
@@ -72,13 +73,7 @@ impl Transmission {
         let mut warnings = Vec::new();
         let frame = Frame::new(language, resolved, &mut memory, &mut found, &mut warnings)?;
         let (entry, members, ports) = (&frame.entry, &frame.members, &frame.ports);
-        let mut oils = OilNumbers::new(
-            (entry, &resolved.value),
-            members,
-            (&frame.gears, &frame.meshes),
-            &frame.nodes,
-            &mut memory,
-        );
+        let mut oils = frame.oils(resolved, &mut memory);
         let mut build = Build::again(language.registry(), files, memory);
         build.oil_elements = Some(element_paths(entry));
         let models = Models::new(
@@ -107,15 +102,7 @@ impl Transmission {
         check_network(entry, resolved, &models.parts, &mut found, &mut warnings);
         classify(&mut found, codes::NETWORK);
         let mut memory = std::mem::take(&mut build.memory);
-        let (states, cases) = states(
-            entry,
-            members,
-            (&frame.meshes, &frame.transfers),
-            &models.clearances,
-            (ports, &frame.wheels),
-            &mut memory,
-            &mut found,
-        );
+        let (states, cases) = models.states(&frame, &mut memory, &mut found);
         classify(&mut found, codes::POWER_FLOW);
         let designs = models.designs();
         let loads = models.shaft_loads(&frame, &designs, &mut memory, &mut found, &mut warnings);
@@ -279,6 +266,17 @@ struct Frame {
 }
 
 impl Frame {
+    /// The oils of the description.
+    fn oils(&self, resolved: &Resolved, memory: &mut Memory) -> OilNumbers<'_> {
+        OilNumbers::new(
+            (&self.entry, &resolved.value),
+            &self.members,
+            (&self.gears, &self.meshes),
+            &self.nodes,
+            memory,
+        )
+    }
+
     fn new(
         language: &Language,
         resolved: &Resolved,
@@ -352,6 +350,24 @@ struct Models {
 }
 
 impl Models {
+    /// The gear states with their cases.
+    fn states(
+        &self,
+        frame: &Frame,
+        memory: &mut Memory,
+        found: &mut Vec<Diagnostic>,
+    ) -> (Arc<Vec<GearState>>, Arc<Cases>) {
+        states(
+            &frame.entry,
+            &frame.members,
+            (&frame.meshes, &frame.transfers),
+            &self.clearances,
+            (&frame.ports, &frame.wheels),
+            memory,
+            found,
+        )
+    }
+
     /// The design of each support.
     fn designs(&self) -> Vec<Design> {
         let mut designs = vec![Design::default(); self.supports.len()];

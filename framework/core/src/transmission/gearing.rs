@@ -193,7 +193,7 @@ impl<'a> Gearing<'a> {
             members: bodies,
             carrier: carried.map(|c| c.carrier),
             count: carried.map_or(1.0, |c| c.count),
-            teeth: Teeth::Cylindrical(CylindricalTeeth { pair, hand, direction }),
+            teeth: Teeth::Cylindrical(Box::new(CylindricalTeeth { pair, hand, direction })),
             ra: self.ra([first, second]),
             rq: self.rq([first, second]),
         };

@@ -105,9 +105,9 @@ impl Members {
         let frames = (0..names.len()).map(|m| frame(m).unwrap_or(Axis::along_x([0.0; 2])));
         let frames = frames.collect();
         Self {
-            frames,
             names,
             axes,
+            frames,
             planets,
             loose,
             of_gear,

@@ -52,7 +52,7 @@ pub(crate) struct MeshSeat {
 #[derive(Debug, Clone)]
 pub(crate) enum Teeth {
     /// Cylindrical gears on parallel axes.
-    Cylindrical(CylindricalTeeth),
+    Cylindrical(Box<CylindricalTeeth>),
     /// Gears on axes that cross.
     Crossed(Arc<CrossedTeeth>),
 }

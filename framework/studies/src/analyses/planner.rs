@@ -84,7 +84,7 @@ impl<'a> Planner<'a> {
     pub(super) fn provenance(&self, built: &[&Built<'_>]) -> Head {
         let record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
         let mut head = Head::new(self, built, &record.inputs, &record.about);
-        head.model_error = record.model_errors.clone();
+        head.model_error.clone_from(&record.model_errors);
         head
     }
 

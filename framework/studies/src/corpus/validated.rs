@@ -141,10 +141,10 @@ pub fn over_sets(cells: &[CellOfSet]) -> Vec<ModelOverSets> {
         }
         let outside = cells.iter().filter(own).all(|cell| cell.cell.in_range == 0.0);
         ModelOverSets {
-            outside,
             mechanism,
             model,
             sets,
+            outside,
             band,
         }
     };

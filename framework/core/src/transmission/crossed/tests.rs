@@ -1,4 +1,5 @@
 //! Placed pairs on axes in any direction: contact, torques and power of their forces.
+#![allow(clippy::unwrap_used)]
 
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;

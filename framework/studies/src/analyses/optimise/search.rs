@@ -171,9 +171,12 @@ impl<'a> Search<'a> {
         let sum = |design: &&Design| -> f64 {
             let pairs = design.score.objectives.iter().zip(&self.present);
             // A consumption may be negative, if more is recuperated than drawn.
-            let relative = |(objective, present): (&f64, &f64)| match *present < 0.0 {
-                true => 1.0 + (objective - present) / present.abs(),
-                false => objective / present.max(f64::MIN_POSITIVE),
+            let relative = |(objective, present): (&f64, &f64)| {
+                if *present < 0.0 {
+                    1.0 + (objective - present) / present.abs()
+                } else {
+                    objective / present.max(f64::MIN_POSITIVE)
+                }
             };
             pairs.map(relative).sum()
         };
