@@ -140,7 +140,7 @@ fn every_part_of_the_consumption_is_that_of_the_hand_calculation() {
         ("wheels", 8425.0 + 1400.0 - 7325.0),
         ("transmission", 260.567_010_309 + 43.298_969_072_2 + 185.567_010_309),
         ("machine", 755.266_696_549 + 125.504_258_18 + 480.0),
-        ("brakes", 1139.432_989_69),
+        ("brakes", 1_139.432_989_69),
         ("auxiliaries", 900.0),
         ("battery", 0.0),
     ] {
@@ -151,7 +151,7 @@ fn every_part_of_the_consumption_is_that_of_the_hand_calculation() {
             per_distance(watts)
         );
     }
-    let electric = 8685.567_010_31 + 755.266_696_549 + 1443.298_969_07 + 125.504_258_18;
+    let electric = 8_685.567_010_31 + 755.266_696_549 + 1_443.298_969_07 + 125.504_258_18;
     let efficiency = number(&found["system_efficiency"]);
     assert!((efficiency - 9825.0 / electric).abs() < 1e-9, "{efficiency}");
     // 5220 W into the battery of 7325 W at the wheels.
@@ -167,7 +167,7 @@ fn a_fixed_efficiency_of_the_vehicle_closes_as_well() {
     let consumption = number(&found["consumption_kwh_per_100_km"]);
     assert!((consumption - 8.874_495_741_82).abs() < 1e-9, "{consumption}");
     let brakes = number(&found["brakes_kwh_per_100_km"]);
-    assert!((brakes - per_distance(1139.432_989_69)).abs() < 1e-9, "{brakes}");
+    assert!((brakes - per_distance(1_139.432_989_69)).abs() < 1e-9, "{brakes}");
     assert!(number(&found["residual_share"]) < 1e-9);
 }
 

@@ -5,7 +5,7 @@ pub mod din_3996;
 pub mod efficiency;
 pub mod friction;
 
-use gearloss_framework::loss::{Loss, Undefined};
+use gearloss_framework::loss::Loss;
 use gearloss_framework::mechanism::worm_mesh::WormMeshAt;
 use gearloss_framework::real::{Mask as _, Real};
 use gearloss_framework::{observed, terms};

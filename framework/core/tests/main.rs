@@ -1,4 +1,5 @@
 //! Tests of the framework with its registered mechanisms, and a model of its own where one is needed.
+#![allow(clippy::unwrap_used)]
 
 mod crossed;
 

@@ -29,7 +29,7 @@ pub fn add(all: &[ModelErrorOfSet], page: &mut Page) {
         for law in &of_set.laws {
             table.row(row(law));
         }
-        page.table(table.titled(&format!(
+        page.table(table.titled(format!(
             "Error of the models: factor on the loss, from measured sets{}",
             of_models(&of_set.model_set)
         )));

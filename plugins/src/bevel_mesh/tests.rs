@@ -1,4 +1,5 @@
 //! Bevel and hypoid meshes in a gearbox: losses in the power flow, flanks, batches.
+#![allow(clippy::unwrap_used)]
 
 use gearloss_framework::evaluate::{Point, PowerFlow, Solution};
 use gearloss_framework::flow::Tolerance;

@@ -223,7 +223,7 @@ fn the_lift_of_the_examples_holds_its_load() {
     assert!(rest.efficiency[0] < 0.45, "{rest:?}");
     for (speed, locks, status) in [(1450.0, false, Status::Coast), (10.0, true, Status::Dragged)] {
         solved(&t, speed * RPM, ("output", -350.0), |s, _| {
-            assert_eq!(s.status(), Status::Drive)
+            assert_eq!(s.status(), Status::Drive);
         });
         solved(&t, speed * RPM, ("output", 350.0), |s, [worm, _]| {
             assert_eq!((s.status(), s.locked_worms().count() == 1), (status, locks));
@@ -243,7 +243,7 @@ fn the_measured_drive() {
         .unwrap_or_else(|f| panic!("{}", f.render()));
     for (torque, measured) in [(-18.84e-3, 1.831e-3), (18.84e-3, 0.9535e-3)] {
         solved(&t, 10.0 * RPM, ("output", torque), |_, [worm, _]| {
-            close(worm, measured, 0.1)
+            close(worm, measured, 0.1);
         });
     }
 }

@@ -193,9 +193,8 @@ mod tests {
     #[test]
     fn the_factor_contains_the_bias() {
         // A law that gives twice the measured loss in every set.
-        let lines: String = (0..6)
-            .map(|i| format!("bearing,law,,,s{i},measured,no,2,1.95,2.05,1,0.01,0.02\n"))
-            .collect();
+        let line = |i| format!("bearing,law,,,s{i},measured,no,2,1.95,2.05,1,0.01,0.02\n");
+        let lines = (0..6).map(line).collect::<Vec<String>>().concat();
         let [low, middle, high] = law(&lines).band().unwrap();
         assert!(
             (middle - 0.5).abs() < 0.01 && low > 0.45 && high < 0.55,
@@ -222,7 +221,7 @@ mod tests {
             for _ in 0..SIMULATIONS {
                 let mut lines = String::new();
                 for set in 0..sets {
-                    let error = 0.05 + 0.05 * (set % 3) as f64;
+                    let error = 0.05 + 0.05 * f64::from(set % 3);
                     let mean = bias + between * normal() + error * normal();
                     let logs: Vec<f64> = (0..6).map(|_| mean + within * normal()).collect();
                     let of = logs.iter().sum::<f64>() / 6.0;

@@ -186,6 +186,41 @@ fn table(outcome: &SweepOutcome, swept: &Swept<'_>, page: &mut Page) {
 /// Name of a file, quantity with its unit, and its value.
 type Quantity<'q> = (&'q str, String, &'q dyn Fn(&CycleOfSweep) -> Option<f64>);
 
+/// A quantity over two paths.
+fn map_of(swept: &Swept<'_>, title: String, unit: &str, read: &dyn Fn(&CycleOfSweep) -> Option<f64>) -> Map {
+    let count = |side: usize| {
+        let places = swept.values.iter().map(|value| value.places[side] + 1);
+        places.max().unwrap_or(0)
+    };
+    let cell = |places| swept.values.iter().find(|value| value.places == places);
+    let places = (0..count(1)).flat_map(|k| (0..count(0)).map(move |i| [i, k]));
+    let words = |side: usize, of: &dyn Fn(&CycleOfSweep) -> String| {
+        let value = |place| swept.values.iter().find(|value| value.places[side] == place);
+        let words = (0..count(side)).filter_map(|place| value(place).map(|value| of(value)));
+        words.collect::<Vec<String>>()
+    };
+    let second = |value: &CycleOfSweep| {
+        let second = value.second.as_ref();
+        second.map_or_else(String::new, |second| word(&second.value))
+    };
+    let first = swept.values[0];
+    let path = first
+        .second
+        .as_ref()
+        .map_or_else(String::new, |second| second.path.clone());
+    Map {
+        title,
+        x: (first.path.clone(), words(0, &|value| word(&value.value))),
+        y: (path, words(1, &second)),
+        values: places
+            .map(|places| cell(places).and_then(|value| read(value)))
+            .collect(),
+        unit: unit.to_owned(),
+        best: Some(Best::Lowest),
+        ..Map::default()
+    }
+}
+
 /// Consumption and loss over the values: lines over numbers, bars of their parts over names, maps over two paths.
 fn figures(outcome: &SweepOutcome, swept: &Swept<'_>, page: &mut Page) {
     let name = &outcome.head.analysis;
@@ -203,44 +238,11 @@ fn figures(outcome: &SweepOutcome, swept: &Swept<'_>, page: &mut Page) {
     ];
     let quantities = quantities.into_iter().filter(|(.., read)| read(first).is_some());
     let words: Vec<String> = swept.values.iter().map(|value| word(&value.value)).collect();
-    if let Some(second) = &first.second {
+    if first.second.is_some() {
         for (what, title, read) in quantities {
-            let count = |side: usize| {
-                swept
-                    .values
-                    .iter()
-                    .map(|value| value.places[side] + 1)
-                    .max()
-                    .unwrap_or(0)
-            };
-            let cell = |places| swept.values.iter().find(|value| value.places == places);
-            let places = (0..count(1)).flat_map(|k| (0..count(0)).map(move |i| [i, k]));
-            let values = places
-                .map(|places| cell(places).and_then(|value| read(value)))
-                .collect();
-            let words = |side: usize, of: &dyn Fn(&CycleOfSweep) -> String| {
-                let value = |place| swept.values.iter().find(|value| value.places[side] == place);
-                (0..count(side))
-                    .filter_map(|place| value(place).map(|value| of(value)))
-                    .collect::<Vec<String>>()
-            };
-            let along = words(0, &|value| word(&value.value));
-            let beside = words(1, &|value| {
-                value
-                    .second
-                    .as_ref()
-                    .map_or_else(String::new, |second| word(&second.value))
-            });
-            let map = Map {
-                title: format!("{name}: {title}, {of}, models {}", swept.set),
-                x: (first.path.clone(), along),
-                y: (second.path.clone(), beside),
-                values,
-                unit: if what == "loss" { "W" } else { "kWh/100 km" }.to_owned(),
-                best: Some(Best::Lowest),
-                ..Map::default()
-            };
-            page.figure(file(what), Figure::Map(map));
+            let title = format!("{name}: {title}, {of}, models {}", swept.set);
+            let unit = if what == "loss" { "W" } else { "kWh/100 km" };
+            page.figure(file(what), Figure::Map(map_of(swept, title, unit, read)));
         }
         return;
     }
