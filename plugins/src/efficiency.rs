@@ -1,8 +1,8 @@
-//! A known efficiency of a mesh of any kind: a number, or a table over the quantities of the mesh.
+//! A known efficiency of a mesh, chain or joint: a number, or a table over the quantities of the mechanism.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::generic::{Lookup, PLACE};
-use gearloss_framework::loss::{Loss, Undefined};
+use gearloss_framework::loss::{Loss, Term, Undefined};
 use gearloss_framework::mechanism::{Inputs as _, Mechanism};
 use gearloss_framework::registry::Build;
 use gearloss_framework::table::{Interpolation, Outside, Reading};
@@ -10,10 +10,13 @@ use gearloss_framework::{observed, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-terms! { pub SLIDING = load("sliding"); }
-observed! { pub EFFICIENCY = ("eta", "-", "efficiency of the mesh"); }
+terms! {
+    pub SLIDING = load("sliding");
+    pub STATED = load("stated");
+}
+observed! { pub EFFICIENCY = ("eta", "-", "efficiency"); }
 
-/// Mesh loss from a known efficiency: a number, or a table over quantities of the mesh.
+/// Loss from a known efficiency: a number, or a table over the quantities of the mechanism.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
     /// Efficiency, instead of a table. [-]
@@ -30,7 +33,7 @@ pub struct Params {
     pub interpolation: Interpolation,
 }
 
-/// A number, or a table over quantities of a mechanism.
+/// A number, or a table over the quantities of the mechanism.
 pub enum Efficiency<M: Mechanism> {
     Value(f64),
     Table(Lookup<M>),
@@ -54,8 +57,8 @@ impl<M: Mechanism> Efficiency<M> {
         }
     }
 
-    /// The loss at a torque in Nm and a speed in rad/s of the first gear.
-    pub fn loss(&self, at: &M::At<'_, f64>, torque: f64, speed: f64) -> Result<Loss, Undefined> {
+    /// The loss as `term` at a torque in Nm and a speed in rad/s of the side that states both.
+    pub fn loss(&self, at: &M::At<'_, f64>, [torque, speed]: [f64; 2], term: &Term) -> Result<Loss, Undefined> {
         let notes = at.notes();
         if speed == 0.0 || torque == 0.0 {
             notes.branch("no speed or no torque: no loss");
@@ -71,12 +74,12 @@ impl<M: Mechanism> Efficiency<M> {
         };
         if !(0.0..=1.0).contains(&value) {
             return Err(Undefined {
-                what: "efficiency of the mesh, which is not between 0 and 1",
+                what: "efficiency, which is not between 0 and 1",
                 value,
             });
         }
         let value = notes.observe(&EFFICIENCY, value);
         let input = notes.show("P_in", "W", torque * speed.abs());
-        Ok(Loss::POWERS.with(&SLIDING, (1.0 - value) * input))
+        Ok(Loss::POWERS.with(term, (1.0 - value) * input))
     }
 }

@@ -18,7 +18,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Efficiency<BevelMesh>, 
 
 impl BevelMeshModel for Efficiency<BevelMesh> {
     fn loss(&self, at: &BevelMeshAt<'_>) -> Result<Loss, Undefined> {
-        self.loss(at, at.torque, at.speed)
+        self.loss(at, [at.torque, at.speed], &SLIDING)
     }
 }
 

@@ -19,7 +19,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Efficiency<CrossedHelic
 
 impl CrossedHelicalMeshModel for Efficiency<CrossedHelicalMesh> {
     fn loss(&self, at: &CrossedHelicalMeshAt<'_>) -> Result<Loss, Undefined> {
-        self.loss(at, at.torque, at.speed)
+        self.loss(at, [at.torque, at.speed], &SLIDING)
     }
 }
 

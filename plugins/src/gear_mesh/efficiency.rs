@@ -18,7 +18,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Efficiency<GearMesh>, D
 
 impl GearMeshModel for Efficiency<GearMesh> {
     fn loss(&self, at: &GearMeshAt<'_>) -> Result<Loss, Undefined> {
-        self.loss(at, at.torque, at.speed)
+        self.loss(at, [at.torque, at.speed], &SLIDING)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The flanks of crossed helical gears that touch in a point, as a pair of surfaces with a path of contact.
 
-use nalgebra::{Matrix2, Vector2, Vector3};
+use nalgebra::{Vector2, Vector3};
 
 use super::flank_pair::TeethFault;
 use super::mean_point::{Flank, MeanPoint};
@@ -106,7 +106,6 @@ fn spot_of(frame: &MeanPoint, normal: Vector3<f64>, radius: [f64; 2]) -> (Vector
     let eigen = (curvature[0] + curvature[1]).symmetric_eigen();
     let flat = usize::from(eigen.eigenvalues[1] < eigen.eigenvalues[0]);
     let along: Vector2<f64> = eigen.eigenvectors.column(flat).into();
-    let _: &Matrix2<f64> = &eigen.eigenvectors;
     let line = frame.trace * along.x + in_flank * along.y;
     (line, [1.0 / eigen.eigenvalues[1 - flat], 1.0 / eigen.eigenvalues[flat]])
 }
