@@ -89,6 +89,9 @@ gearloss_document::codes! {
     JOINT = "E0334", "invalid joint",
         cause: "A joint names the same shaft on both sides.",
         help: "Name the shafts on both sides of the joint.";
+    TRAVEL = "E0360", "a cycle cannot incline the oil",
+        cause: "`housing.travel` lets grade and acceleration of a cycle incline the oil, but no volume of oil or no oil space is known, or an inclination is impossible.",
+        help: "State `volume` with `housing.inside`, or delete `travel`.";
     THERMAL = "E0401", "invalid thermal description",
         cause: "The balance has no heat path, or values of the thermal section contradict each other.",
         help: "Correct the section `thermal`.";

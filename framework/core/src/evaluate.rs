@@ -39,7 +39,7 @@ use crate::mechanism::worm_mesh::{WormMesh, WormMeshAt, WormPart};
 use crate::real::{Mask as _, Points, Real};
 use crate::sump::CAPTURE;
 use crate::thermal::Unbalanced;
-use crate::transmission::{Case, Component, CrossedTeeth, MeshLaw, Sharing, Transmission};
+use crate::transmission::{Case, Component, CrossedTeeth, MeshLaw, Sharing, Surface, Transmission};
 
 /// Whether torque downstream is reduced by upstream losses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -75,6 +75,8 @@ pub struct Point<'a> {
     pub flow: PowerFlow,
     /// Tolerance of the agreement between loads and losses.
     pub tolerance: Tolerance,
+    /// Inclination of the housing in its direction of travel, in addition to that as built; not used if the housing states none. \[rad\]
+    pub inclination: f64,
 }
 
 impl Point<'_> {
@@ -190,6 +192,7 @@ impl Transmission {
         s.models.conditions.temperatures.extend_from_slice(temperatures);
         s.models.conditions.common = true;
         s.models.conditions.live = true;
+        s.models.conditions.inclination = point.inclination;
         self.settle_prescribed(case, s, !0, noting);
     }
 
@@ -203,6 +206,16 @@ impl Transmission {
         c.rest = self.oils.at_rest(&c.speeds, &c.oils);
         // Until the drag of the gears is known, no oil is lifted.
         c.surface = self.oils.running(&c.speeds, c.rest);
+        c.travel = self.oils.travel().filter(|_| !c.inclination.is_zero().all()).copied();
+        if let Some(sump) = self.oils.sump.as_ref().filter(|_| c.travel.is_some()) {
+            // The level is that of the same oil.
+            let rest = sump.inclined(c.rest, c.inclination);
+            c.surface = match self.oils.surface() {
+                Surface::AtRest | Surface::Estimated(_) => rest,
+                Surface::Fixed(_) | Surface::Over { .. } => sump.inclined(c.surface, c.inclination),
+            };
+            c.rest = rest;
+        }
         self.write_closings(&c.temperatures, &c.oils, &mut m.closings);
         self.hydraulics.solve(
             &Inputs {
@@ -245,7 +258,7 @@ impl Transmission {
                 surface: c.surface,
             };
             let held = self.hydraulics.held(&c.hydraulics, &at);
-            let running = sump.running(c.rest, held, &c.oils, &m.lifted);
+            let running = sump.running((c.rest, c.inclination), held, &c.oils, &m.lifted);
             if let Some((_, place)) = estimated {
                 c.surface = if place == 0.0 {
                     running.film_level(CAPTURE[1])

@@ -309,7 +309,7 @@ fn plan<'i>(
 fn advance(march: &mut March<'_>, cases: &mut Cases<'_>, planned: &[Planned<'_>]) -> Result<Vec<Passed>, Unbalanced> {
     let points: Vec<Point<'_>> = planned
         .iter()
-        .map(|planned| point_of(&cases.known[planned.asked.place].1, cases.ride, &planned.asked))
+        .map(|planned| point_of(&cases.known[planned.asked.place].1, cases.ride, &planned.asked, planned.interval.inclination))
         .collect();
     let stages = planned.iter().zip(&points).map(|(planned, point)| Stage {
         moment: Moment {
@@ -470,7 +470,7 @@ fn limit(
     driven.evaluations += 1;
     let scratch = cases.scratches[asked.place].alone();
     let case = &cases.known[asked.place].1;
-    let point = point_of(case, ride, &asked);
+    let point = point_of(case, ride, &asked, interval.inclination);
     let tried = t.try_point(case, &point, warm.unwrap_or(&oil), scratch, Noting::Muted);
     let asked_torque = scratch.port_torque(t.ports()[t.reference_port()].member);
     let Some(vehicle) = ride.vehicle.filter(|_| tried.is_ok()) else {
@@ -490,13 +490,14 @@ fn limit(
     Ok((Asked { place, torque, ..asked }, is_clear))
 }
 
-/// The operating point of a demand.
-fn point_of<'a>(case: &Case, ride: &Ride<'_>, asked: &'a Asked) -> Point<'a> {
+/// The operating point of a demand at the inclination of its interval.
+fn point_of<'a>(case: &Case, ride: &Ride<'_>, asked: &'a Asked, inclination: f64) -> Point<'a> {
     Point {
         speeds: std::slice::from_ref(&asked.speed),
         torques: &std::slice::from_ref(&asked.torque)[..case.torque_ports.len()],
         flow: ride.flow,
         tolerance: Tolerance::default(),
+        inclination,
     }
 }
 
@@ -507,7 +508,7 @@ fn steady(cases: &mut Cases<'_>, planned: &Planned<'_>, driven: &mut Driven) -> 
     let (case, scratch) = (&cases.known[asked.place].1, cases.scratches[asked.place].alone());
     let moment = Moment {
         case,
-        point: &point_of(case, ride, asked),
+        point: &point_of(case, ride, asked, interval.inclination),
         around: &planned.around,
     };
     let duration = interval.duration;
