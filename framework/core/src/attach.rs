@@ -436,7 +436,7 @@ impl<'a> Names<'a> {
     fn add_pocket(&mut self, entry: &PocketEntry) -> u16 {
         self.pockets.push(SeatedPocket {
             path: self.path.clone(),
-            entry: *entry,
+            entry: entry.clone(),
             oil: 0,
         });
         (self.pockets.len() - 1) as u16

@@ -15,7 +15,7 @@ mod transfers;
 pub use batch::{Batch, BatchScratch, Block};
 pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
 pub use oil_level::{LevelEstimate, LevelFrom, OilLevels};
-pub use oil_supply::{ChamberLevel, ElementFlow, OilSupply, PocketLevel, SupplyFinding};
+pub use oil_supply::{ChamberLevel, ElementFlow, OilSupply, PocketLevel, SupplyFinding, WindowFlow};
 pub use ratings::{ComponentRating, Ratings};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
@@ -27,7 +27,7 @@ pub use solution::{PartLoss, PreloadAt, Solution, ToothForceAt};
 use crate::attach::{Oil, State};
 use crate::flow::{Balance, Drive, FlowState, Outcome, Start, Status, Tolerance};
 use crate::geometry::crossed::Flank;
-use crate::hydraulics::Inputs;
+use crate::hydraulics::{Inputs, Window};
 use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad, ToothForces};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
 use crate::mechanism::Answers;
@@ -192,8 +192,17 @@ impl Transmission {
         s.models.conditions.temperatures.extend_from_slice(temperatures);
         s.models.conditions.common = true;
         s.models.conditions.live = true;
-        s.models.conditions.inclination = point.inclination;
+        s.models.conditions.inclination = self.inclination_of(point);
         self.settle_prescribed(case, s, !0, noting);
+    }
+
+    /// Inclination of a point, in addition to that as built; none if the housing does not travel. \[rad\]
+    fn inclination_of(&self, point: &Point<'_>) -> f64 {
+        if self.oils.travel().is_some() {
+            point.inclination
+        } else {
+            0.0
+        }
     }
 
     /// Computes speeds, oils and all values that are independent of torque, from what is prescribed. Points that do not differ in it from
@@ -269,7 +278,9 @@ impl Transmission {
             if wetting.is_some() {
                 let nu = c.oils[sump.oil].nu;
                 let [_, flow] = running.missing(|i| m.lifted[i], c.surface, nu, CAPTURE[1]);
-                self.hydraulics.catch(flow, sump.walls().length, &at, &mut c.hydraulics);
+                let thrown = |window: &Window| sump.through(window, (&c.speeds, c.surface), &m.lifted).1;
+                self.hydraulics
+                    .catch((flow, sump.walls().length), thrown, &at, &mut c.hydraulics);
             }
         }
         let (state, book) = c.open(noting != Noting::Muted);
@@ -608,9 +619,18 @@ impl Transmission {
         let towards = |i: usize| {
             let turns = |point: usize| {
                 let own = speed[i].at_point(point);
-                seat.mates[i].iter().any(|y| own * y > 0.0)
+                seat.mates[i].iter().any(|mate| own * mate.y > 0.0)
             };
             R::each(|point| f64::from(u8::from(turns(point))))
+        };
+        // The highest mesh towards which the lowest point moves.
+        let mesh_height = |i: usize| {
+            let highest = |point: usize| {
+                let own = speed[i].at_point(point);
+                let drawn = seat.mates[i].iter().filter(|mate| own * mate.y > 0.0);
+                drawn.fold(0.0, |highest: f64, mate| highest.max(mate.height))
+            };
+            R::each(highest)
         };
         let second = |x: R| if seat.pair { x } else { R::ZERO };
         GearDragAt {
@@ -623,6 +643,8 @@ impl Transmission {
             dip_2: second(level[1].dip(seat.radii[1][1])),
             towards_mesh: towards(0),
             towards_mesh_2: second(towards(1)),
+            mesh_height: mesh_height(0),
+            mesh_height_2: second(mesh_height(1)),
             temperature: oil.temperature,
             nu: oil.nu,
             eta: oil.eta,

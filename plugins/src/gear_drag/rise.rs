@@ -135,20 +135,25 @@ fn bound(
 ) -> Result<f64, Undefined> {
     let raised = at.with(|to| {
         if at.towards_mesh > 0.0 {
-            [to.tip_dip, to.dip] = at_mesh(&at.part.gear, [at.tip_dip, at.dip]);
+            [to.tip_dip, to.dip] = at_mesh(&at.part.gear, at.mesh_height, [at.tip_dip, at.dip]);
         }
         if let Some(mate) = at.part.mate.as_ref().filter(|_| at.towards_mesh_2 > 0.0) {
-            [to.tip_dip_2, to.dip_2] = at_mesh(mate, [at.tip_dip_2, at.dip_2]);
+            [to.tip_dip_2, to.dip_2] = at_mesh(mate, at.mesh_height_2, [at.tip_dip_2, at.dip_2]);
         }
         to.notes = Notes::MUTED;
     });
     Ok((0.5 * (law(&raised)?.sum() / sum - 1.0)).max(0.0))
 }
 
-/// Immersion depths of tip and reference circle with the surface at the pitch point, if it is below. \[m\]
-fn at_mesh(gear: &GearBody, dips: [f64; 2]) -> [f64; 2] {
-    if gear.contact_height > dips[0] {
-        [gear.contact_height, gear.dip_of(gear.contact_height)]
+/// Immersion depths of tip and reference circle with the surface at the pitch point of a height, if it is below. \[m\]
+fn at_mesh(gear: &GearBody, height: f64, dips: [f64; 2]) -> [f64; 2] {
+    let height = if height > 0.0 {
+        height.min(gear.tip_diameter)
+    } else {
+        gear.contact_height
+    };
+    if height > dips[0] {
+        [height, gear.dip_of(height)]
     } else {
         dips
     }
@@ -160,11 +165,16 @@ mod tests {
 
     /// Loss of a wheel of 160 mm with 64 teeth of 5.6 mm height, 30 mm wide, at a mesh at the height of its axis.
     fn loss(law: &str, speed: f64, dip: f64, towards: f64) -> f64 {
+        loss_at(law, speed, dip, (towards, 0.0))
+    }
+
+    /// The same with the height of the highest mesh towards which the lowest point moves. \[mm\]
+    fn loss_at(law: &str, speed: f64, dip: f64, (towards, height): (f64, f64)) -> f64 {
         let input = format!(
             "{{ model: {law}, part: {{ gear: {{ z: 64, normal_module: 2.5 mm, pressure_angle: 20 deg, facewidth: 30 mm, \
              reference_diameter: 160 mm, working_diameter: 160 mm, tip_diameter: 165 mm, root_diameter: 153.8 mm, contact_height: 82.5 mm }}, \
              oil_volume: 1.3 l, radial_clearance: 6 mm, axial_clearance: 30 mm }}, \
-             at: {{ speed: {speed} rad/s, dip: {dip} mm, nu: 10 mm2/s, rho: 840 kg/m3, towards_mesh: {towards} }} }}"
+             at: {{ speed: {speed} rad/s, dip: {dip} mm, nu: 10 mm2/s, rho: 840 kg/m3, towards_mesh: {towards}, mesh_height: {height} mm }} }}"
         );
         let name = law.split(&[':', ',', '}'][..]).nth(1).unwrap_or_default().trim();
         eval(&format!("gear_drag/{name}"), &input).total
@@ -211,6 +221,18 @@ mod tests {
             assert!(half > alone, "{law}");
             assert_close(half, 0.5 * (alone + whole), 1e-13);
         }
+    }
+
+    /// Of several mates the highest one that draws oil in bounds the swell, whatever mesh the gear has its body from.
+    #[test]
+    fn the_highest_mesh_bounds_the_swell() {
+        let law = "{ type: changenet_2011, swell_share: 1 }";
+        let at = |height: f64| loss_at(law, 20.0, 25.0, (1.0, height));
+        assert_eq!(at(0.0).to_bits(), at(82.5).to_bits());
+        assert!(at(40.0) < at(82.5) && at(82.5) < at(140.0));
+        // Not above the gear itself, and nothing below the surface.
+        assert_eq!(at(165.0).to_bits(), at(4000.0).to_bits());
+        assert_eq!(at(20.0).to_bits(), loss_at(law, 20.0, 25.0, (0.0, 20.0)).to_bits());
     }
 
     #[test]

@@ -152,7 +152,7 @@ impl Transmission {
         }
         c.common = false;
         c.live = Lane::mask(|lane| lane < points.len());
-        c.inclination = Lane::each(|lane| points[own(lane)].inclination);
+        c.inclination = Lane::each(|lane| self.inclination_of(&points[own(lane)]));
         let same = |lane: usize| {
             let mut values = s.prescribed.iter().chain(&c.temperatures).chain([&c.inclination]);
             values.all(|value| value[lane].to_bits() == value[lane - 1].to_bits())

@@ -67,6 +67,13 @@ impl Lift {
         (tip * tip - root * root) / (4.0 * tip)
     }
 
+    /// What the gear throws off while the oil stands at a level (m), with a factor c: less from a pool that it has emptied. \[m3/s\]
+    #[inline]
+    pub fn thrown<R: Points>(&self, gear: &Lifted<R>, level: R, capture: f64) -> R {
+        let pool = (self.tip_dip_at(level, gear.axis) / (2.0 * self.carried())).at_most(1.0);
+        gear.flow(capture) * pool
+    }
+
     /// What the gear lifts by its churning power (W) at its speed (rad/s) in oil of a density (kg/m3), with c = 1.
     #[inline]
     pub fn lifted<R: Real>(&self, power: R, speed: R, rho: R) -> Lifted<R> {
@@ -223,9 +230,7 @@ impl<'s, R: Points, S: Fn(usize) -> AnySpace<'s>> Running<'_, R, S> {
         let (mut flow, mut air) = (T::ZERO, T::ZERO);
         for (i, lift) in self.lifts.iter().enumerate() {
             let gear = lifted(i);
-            let dip = lift.tip_dip_at(level, gear.axis);
-            let pool = (dip / (2.0 * lift.carried())).at_most(1.0);
-            let own = gear.flow(capture) * pool;
+            let own = lift.thrown(&gear, level, capture);
             flow += own;
             air += own * self.walls.flight / gear.rim;
         }

@@ -407,6 +407,7 @@ impl Models {
             parts: &self.parts,
             components: &self.components,
             pockets: &self.pockets,
+            gears: &frame.gears,
         };
         let built = oil_network::hydraulics(&around, oils, found, warnings);
         classify(found, codes::OIL_NETWORK);
@@ -497,7 +498,7 @@ impl Models {
         let catches = models
             .pockets
             .iter()
-            .any(|pocket| pocket.entry.rib.is_some_and(|rib| rib.wetting.is_none()));
+            .any(|pocket| pocket.entry.window.is_some() || pocket.entry.rib.is_some_and(|rib| rib.wetting.is_none()));
         if let (Some(inside), Some(rest)) = (oils.inside.clone(), oils.rest())
             && let Some(oil) = oils.oil("housing.oil", &Common::default())
         {
@@ -1086,7 +1087,10 @@ fn stiffnesses(supports: &[SeatedSupport], designs: &[Design]) -> Vec<(usize, f6
 /// What prevents a cycle from inclining the oil.
 fn no_travel(entry: &GearboxEntry, oils: &OilNumbers<'_>) -> Option<Diagnostic> {
     let (message, help) = match &entry.housing.oil {
-        None => ("the housing has no oil that a cycle could incline", "state `housing.oil`, or delete `travel`"),
+        None => (
+            "the housing has no oil that a cycle could incline",
+            "state `housing.oil`, or delete `travel`",
+        ),
         Some(oil) if oil.dry_sump => ("a dry sump has no level that a cycle could incline", "delete `travel`"),
         Some(_) if oils.inside.is_none() => (
             "the level at an inclination follows from the volume, and the oil space is not known",
@@ -1098,7 +1102,11 @@ fn no_travel(entry: &GearboxEntry, oils: &OilNumbers<'_>) -> Option<Diagnostic> 
         ),
         Some(_) => return None,
     };
-    Some(Diagnostic::error("housing.travel", message).code(codes::TRAVEL).help(help))
+    Some(
+        Diagnostic::error("housing.travel", message)
+            .code(codes::TRAVEL)
+            .help(help),
+    )
 }
 
 /// Ribs that shall catch the oil that gears lift, where it is not known how much that is.

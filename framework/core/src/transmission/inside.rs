@@ -77,7 +77,10 @@ impl Inside {
         let space = memory.repeat("oil space", input, |input| {
             Space::new(&input.sections, input.discs.clone(), input.up, input.datum).map(Arc::new)
         });
-        let travel = entry.housing.travel.and_then(|travel| Travel::new(up, travel.direction()));
+        let travel = entry
+            .housing
+            .travel
+            .and_then(|travel| Travel::new(up, travel.direction()));
         let inclinations = travel.filter(|_| space.is_ok()).and_then(|travel| {
             let at: Vec<(Vec<Disc>, f64)> = travel
                 .ups()

@@ -358,6 +358,12 @@ impl<'a> OilNumbers<'a> {
         );
     }
 
+    /// The axis of a member, if it is stationary and along x.
+    pub fn stationary_axis_along_x(&self, member: usize) -> Option<Axis> {
+        let (axis, orbit) = self.axes[member]?;
+        (orbit == 0.0 && axis.is_along_x()).then_some(axis)
+    }
+
     /// True if an oil level is known.
     pub fn has_level(&self) -> bool {
         !matches!(self.at_rest, AtRest::Dry)

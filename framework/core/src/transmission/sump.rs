@@ -6,10 +6,11 @@ use super::inside::Inside;
 use super::seats::GearSeat;
 use super::{DragModel, Oils};
 use crate::attach::{Level, Oil, State};
+use crate::hydraulics::{Taken, Window};
 use crate::immersion::Height;
 use crate::loss::{Loss, Undefined};
 use crate::real::{Mask as _, Points};
-use crate::sump::{AnySpace, Inclinations, Lift, Lifted, Outline, Running, Space, Travel, Walls};
+use crate::sump::{AnySpace, CAPTURE, Inclinations, Lift, Lifted, Outline, Running, Space, Travel, Walls};
 use crate::transmission::Surface;
 
 /// The sump with the gears that lift oil.
@@ -25,8 +26,9 @@ pub struct Sump {
     /// The upward direction, and the height of the datum along it. \[m\]
     up: ([f64; 3], f64),
     lifts: Vec<Lift>,
-    /// The axis of each.
+    /// The axis and the number of the gear of each.
     levels: Vec<Level>,
+    gears: Vec<usize>,
     lifters: Vec<Lifter>,
     /// Number of its oil.
     pub(crate) oil: usize,
@@ -55,7 +57,7 @@ impl Sump {
         drags: &[DragModel],
     ) -> Self {
         let mut lifts = Vec::new();
-        let mut of_lifts = Vec::new();
+        let (mut of_lifts, mut numbers) = (Vec::new(), Vec::new());
         let mut lifters = Vec::new();
         for (drag, model) in drags
             .iter()
@@ -77,6 +79,7 @@ impl Sump {
                 });
                 lifts.extend(found);
                 of_lifts.extend(own.iter().map(|gear| levels[*gear]));
+                numbers.extend_from_slice(own);
             }
         }
         Self {
@@ -88,6 +91,7 @@ impl Sump {
             up: inside.up,
             lifts,
             levels: of_lifts,
+            gears: numbers,
             lifters,
             oil,
             read,
@@ -130,6 +134,20 @@ impl Sump {
             ranges.fold(f64::NEG_INFINITY, f64::max),
         );
         ends.map(|y| [y, (level + datum - up[0] * 0.5 * (from + to) - up[1] * y) / up[2]])
+    }
+
+    /// Number of the lift of a gear, if it may lift oil.
+    pub(crate) fn lift_of(&self, gear: usize) -> Option<usize> {
+        self.gears.iter().position(|own| *own == gear)
+    }
+
+    /// What a window takes of the oil that its gear throws at a level (m) with a share of the band's factor, and that flow (m3/s).
+    pub(crate) fn through<R: Points>(&self, window: &Window, state: (&[R], R), lifted: &[Lifted<R>]) -> (Taken<R>, R) {
+        let (speeds, level) = state;
+        let (lift, gear) = (&self.lifts[window.lift], &lifted[window.lift]);
+        let dip = lift.tip_dip_at(level, gear.axis);
+        let taken = window.taken(speeds[window.member], dip);
+        (taken, taken.share * lift.thrown(gear, level, CAPTURE[1]))
     }
 
     /// True if a gear may lift oil.

@@ -185,9 +185,7 @@ impl Trace {
                     (0.0, 0.0) => Demand::Rest,
                     (torque, speed) => Demand::Port { torque, speed },
                 },
-                (None, Some(speed), Some(vehicle)) => {
-                    vehicle.demand(speed, acceleration, grade)
-                }
+                (None, Some(speed), Some(vehicle)) => vehicle.demand(speed, acceleration, grade),
                 _ => {
                     return Err(fault(
                         "the cycle has a vehicle speed but no torque",
