@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Ordered;
-use crate::hydraulics::Rib;
+use crate::hydraulics::{Orifice, Rib};
 
 /// A network of oil flows. Elements lead from `sump` or a junction to a junction, a chamber, `sump` or `housing`, the air of the housing.
 /// Pressures are those over the air of the housing.
@@ -145,6 +145,19 @@ pub struct HoleEntry {
     #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 10000))]
     pub count: u32,
+}
+
+impl HoleEntry {
+    /// Its law.
+    pub fn orifice(&self) -> Orifice {
+        let usual = if self.length < self.diameter { 0.61 } else { 0.8 };
+        Orifice {
+            diameter: self.diameter,
+            length: self.length,
+            discharge: self.discharge.unwrap_or(usual),
+            count: f64::from(self.count),
+        }
+    }
 }
 
 /// A nozzle or orifice.

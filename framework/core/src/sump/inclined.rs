@@ -1,16 +1,16 @@
 //! The oil space of a housing that grade and acceleration incline while it travels: a volume has another level at each inclination.
 //!
-//! Spaces are exact in steps of one degree. Between two of them volumes are interpolated, so that level and volume remain inverse of each
-//! other and no oil is lost.
+//! Spaces are exact in steps of half a degree. Between two of them the volumes below surfaces that meet in the middle of the sections are
+//! interpolated, so that level and volume remain inverse of each other and no oil is lost.
 
 use super::outline::Outline;
 use super::{Crowded, Disc, Space};
 
 /// Step of the inclinations at which the space is exact. \[deg\]
-const STEP: f64 = 1.0;
+const STEP: f64 = 0.5;
 
 /// Greatest inclination in steps: 60 degrees are an acceleration of 17 m/s2 on a level road.
-const STEPS: usize = 60;
+const STEPS: usize = 120;
 
 /// The greatest inclination. \[rad\]
 pub const STEEPEST: f64 = STEPS as f64 * STEP * std::f64::consts::PI / 180.0;
@@ -63,22 +63,32 @@ impl Travel {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Inclinations {
     travel: Travel,
-    /// From the steepest descent to the steepest climb.
-    spaces: Vec<Space>,
+    /// From the steepest descent to the steepest climb, with their upward directions.
+    spaces: Vec<([f64; 3], Space)>,
+    /// x and y of the middle of the sections, from the datum. \[m\]
+    middle: [f64; 2],
 }
 
 impl Inclinations {
-    /// The spaces of some sections, with the solids in them and the height of the datum at each of [`Travel::ups`].
+    /// The spaces of some sections, with the solids in them and the height of the datum at each of [`Travel::ups`]; `middle` is the middle of
+    /// the sections along x and y, from the datum (m).
     ///
     /// # Errors
     /// If solids reach out of the sections at an inclination (deg).
-    pub fn new(travel: Travel, sections: &[Outline], at: &[(Vec<Disc>, f64)]) -> Result<Self, (f64, Crowded)> {
+    pub fn new(
+        travel: Travel,
+        sections: &[Outline],
+        at: &[(Vec<Disc>, f64)],
+        middle: [f64; 2],
+    ) -> Result<Self, (f64, Crowded)> {
         let space = |((degrees, up), (solids, datum)): ((f64, [f64; 3]), &(Vec<Disc>, f64))| {
-            Space::new(sections, solids.clone(), up, *datum).map_err(|crowded| (degrees, crowded))
+            let space = Space::new(sections, solids.clone(), up, *datum);
+            space.map(|space| (up, space)).map_err(|crowded| (degrees, crowded))
         };
         Ok(Self {
             travel,
             spaces: travel.ups().zip(at).map(space).collect::<Result<_, _>>()?,
+            middle,
         })
     }
 
@@ -91,36 +101,66 @@ impl Inclinations {
     #[inline]
     pub fn space(&self, inclination: f64) -> AnySpace<'_> {
         let place = (inclination.to_degrees() / STEP + STEPS as f64).clamp(0.0, 2.0 * STEPS as f64);
-        // Directions of whole degrees are exact, whatever the rounding of the angle.
-        let place = if (place - place.round()).abs() < 1e-9 {
-            place.round()
-        } else {
-            place
-        };
-        let before = (place as usize).min(2 * STEPS - 1);
-        AnySpace {
-            near: &self.spaces[before],
-            far: &self.spaces[before + 1],
-            share: place - before as f64,
+        // Directions of whole steps are exact, whatever the rounding of the angle.
+        if (place - place.round()).abs() < 1e-9 {
+            let (_, space) = &self.spaces[place.round() as usize];
+            return space.into();
         }
+        let up = self.travel.up(inclination);
+        let before = place as usize;
+        let [x, y] = self.middle;
+        let near = |i: usize| {
+            let (own, space) = &self.spaces[i];
+            let slope = own[2] / up[2];
+            Turned {
+                space,
+                slope,
+                offset: (own[0] - slope * up[0]) * x + (own[1] - slope * up[1]) * y,
+            }
+        };
+        AnySpace {
+            near: near(before),
+            far: Some((near(before + 1), place - before as f64)),
+        }
+    }
+}
+
+/// A space with its levels over those of another inclination: both surfaces meet in the middle of the sections.
+#[derive(Debug, Clone, Copy)]
+struct Turned<'a> {
+    space: &'a Space,
+    slope: f64,
+    offset: f64,
+}
+
+impl Turned<'_> {
+    fn volume(&self, level: f64) -> [f64; 2] {
+        let [volume, area] = self.space.volume(self.offset + self.slope * level);
+        [volume, area * self.slope]
+    }
+
+    /// A level of the space as one of the other inclination. \[m\]
+    fn back(&self, level: f64) -> f64 {
+        (level - self.offset) / self.slope
     }
 }
 
 /// A space as built, or one between those of two inclinations.
 #[derive(Debug, Clone, Copy)]
 pub struct AnySpace<'a> {
-    near: &'a Space,
-    far: &'a Space,
-    share: f64,
+    near: Turned<'a>,
+    /// With its share.
+    far: Option<(Turned<'a>, f64)>,
 }
 
 impl<'a> From<&'a Space> for AnySpace<'a> {
     fn from(space: &'a Space) -> Self {
-        Self {
-            near: space,
-            far: space,
-            share: 0.0,
-        }
+        let near = Turned {
+            space,
+            slope: 1.0,
+            offset: 0.0,
+        };
+        Self { near, far: None }
     }
 }
 
@@ -128,34 +168,37 @@ impl AnySpace<'_> {
     /// Volume of oil below a level, and its derivative. \[m3 and m2\]
     #[inline]
     pub fn volume(&self, level: f64) -> [f64; 2] {
-        let near = self.near.volume(level);
-        if self.share == 0.0 {
-            return near;
-        }
-        let far = self.far.volume(level);
-        std::array::from_fn(|i| near[i] + self.share * (far[i] - near[i]))
+        let Some((far, share)) = &self.far else {
+            return self.near.space.volume(level);
+        };
+        let (near, far) = (self.near.volume(level), far.volume(level));
+        std::array::from_fn(|i| near[i] + share * (far[i] - near[i]))
     }
 
     /// The lowest point. \[m\]
     pub fn bottom(&self) -> f64 {
-        if self.share == 0.0 {
-            self.near.bottom()
-        } else {
-            self.near.bottom().min(self.far.bottom())
+        match &self.far {
+            None => self.near.space.bottom(),
+            Some((far, _)) => self
+                .near
+                .back(self.near.space.bottom())
+                .min(far.back(far.space.bottom())),
         }
     }
 
     /// The highest point. \[m\]
     pub fn top(&self) -> f64 {
-        if self.share == 0.0 {
-            self.near.top()
-        } else {
-            self.near.top().max(self.far.top())
+        match &self.far {
+            None => self.near.space.top(),
+            Some((far, _)) => self.near.back(self.near.space.top()).max(far.back(far.space.top())),
         }
     }
 
     /// The level of a volume of oil; the top for more than fits. \[m\]
     pub fn level(&self, volume: f64) -> f64 {
-        super::space::level(volume, [self.bottom(), self.top()], |level| self.volume(level))
+        match &self.far {
+            None => self.near.space.level(volume),
+            Some(_) => super::space::level(volume, [self.bottom(), self.top()], |level| self.volume(level)),
+        }
     }
 }

@@ -90,9 +90,14 @@ impl Inside {
                     (solids, height)
                 })
                 .collect();
-            let input = (sections.clone(), travel, at);
-            let spaces = memory.repeat("inclined oil space", input, |(sections, travel, at)| {
-                Inclinations::new(*travel, sections, at).map(Arc::new)
+            let mean = |ends: [f64; 2], origin: f64| f64::midpoint(ends[0], ends[1]) - origin;
+            let middle = [
+                mean(widest(sections.iter().map(|section| section.range)), datum[0]),
+                mean(widest(sections.iter().map(Outline::extent)), datum[1]),
+            ];
+            let input = (sections.clone(), travel, at, middle);
+            let spaces = memory.repeat("inclined oil space", input, |(sections, travel, at, middle)| {
+                Inclinations::new(*travel, sections, at, *middle).map(Arc::new)
             });
             spaces
                 .map_err(|(degrees, Crowded(level))| {
@@ -163,6 +168,13 @@ impl Inside {
             "in the hull of the tip circles, an assumed inside of the housing"
         }
     }
+}
+
+/// The range of all ranges.
+fn widest(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    ranges.fold([f64::INFINITY, f64::NEG_INFINITY], |all, own| {
+        [all[0].min(own[0]), all[1].max(own[1])]
+    })
 }
 
 /// The stated sections; `None` with errors.

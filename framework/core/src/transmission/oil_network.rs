@@ -10,9 +10,7 @@ use crate::codes;
 use crate::description::oil_network::{NozzleEntry, PipeEntry, PumpEntry, RotatingChannelEntry};
 use crate::description::{GearboxEntry, HoleEntry, OilNetworkEntry, PocketEntry, WindowEntry};
 use crate::document::Diagnostic;
-use crate::hydraulics::{
-    Chamber, Channel, Driver, Edge, Element, End, Hydraulics, Law, Orifice, Pocket, Relief, Window,
-};
+use crate::hydraulics::{Chamber, Channel, Driver, Edge, Element, End, Hydraulics, Law, Pocket, Relief, Window};
 
 const SUMP: &str = "sump";
 const HOUSING: &str = "housing";
@@ -169,7 +167,7 @@ impl Names<'_, '_> {
             let oil = self.oil(&format!("oil_network.chambers.{id}"), oils);
             built.chambers.push(Chamber {
                 name: id.clone(),
-                drain: orifice(&chamber.drain),
+                drain: chamber.drain.orifice(),
                 floor: chamber.floor,
                 height: chamber.height,
                 oil: oil.unwrap_or(0),
@@ -334,7 +332,7 @@ impl Names<'_, '_> {
             discharge: nozzle.discharge,
             count: nozzle.count,
         };
-        let law = Some(Law::Orifice(orifice(&hole)));
+        let law = Some(Law::Orifice(hole.orifice()));
         let ends = [SUMP, HOUSING];
         self.element(
             path,
@@ -364,16 +362,6 @@ impl Names<'_, '_> {
 }
 
 /// A hole with its discharge coefficient, which by default is that of a sharp edge for a short hole, else that of a drilled one.
-fn orifice(hole: &HoleEntry) -> Orifice {
-    let usual = if hole.length < hole.diameter { 0.61 } else { 0.8 };
-    Orifice {
-        diameter: hole.diameter,
-        length: hole.length,
-        discharge: hole.discharge.unwrap_or(usual),
-        count: f64::from(hole.count),
-    }
-}
-
 /// Checks that oil can leave every junction, and that something drives it.
 fn has_ways(network: &Hydraulics, found: &mut Vec<Diagnostic>, warnings: &mut Vec<Diagnostic>) {
     let count = network.junctions.len();
@@ -605,7 +593,7 @@ fn seated_pocket(
         path: pocket.path.clone(),
         edge: edge_of,
         edge_height: edge,
-        drain: drain.as_ref().map(orifice),
+        drain: drain.as_ref().map(HoleEntry::orifice),
         feeds,
         inflow,
         rib: caught.map(|rib| rib.rib()),
