@@ -45,7 +45,7 @@ impl Space {
                     return section.length() * profile.area(level);
                 }
                 let [from, to] = section.range.map(|x| level - up[0] * x);
-                profile.integral([from.min(to), from.max(to)]) / up[0].abs()
+                section.length() * profile.mean([from.min(to), from.max(to)])
             };
             sections.iter().zip(&profiles).map(of).sum()
         };
