@@ -33,6 +33,7 @@ fn part_loss(
         torques: &[torque],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[100.0], &mut scratch);
     let (_, loss) = solution.parts().find(|(p, _)| p.path == part).unwrap();

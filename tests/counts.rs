@@ -33,6 +33,7 @@ fn point<'a>(speeds: &'a [f64], torques: &'a [f64]) -> Point<'a> {
         torques,
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     }
 }
 

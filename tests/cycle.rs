@@ -262,6 +262,7 @@ fn work(t: &Transmission, laws: &[(EhlMixed, ContactPath)], s: &Stretch) -> Vec<
         torques: &[s.torque],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &s.temperatures, &mut scratch);
     contact_work::work(laws, &solution)

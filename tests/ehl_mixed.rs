@@ -31,6 +31,7 @@ fn meshes(t: &Transmission, torque: f64, rpm: f64, oil: f64) -> f64 {
         torques: &[torque],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[oil], &mut scratch);
     assert!(solution.is_complete());

@@ -78,6 +78,7 @@ fn ask(t: &Transmission, torque: f64, rpm: f64) -> Asked {
         torques: &[torque],
         flow: PowerFlow::Ideal,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[40.0], &mut scratch);
     assert!(solution.is_complete());
@@ -333,6 +334,7 @@ fn the_thermal_network_of_the_example_comes_to_rest_at_sensible_temperatures() {
             torques: &[torque(power, rpm)],
             flow: PowerFlow::Real,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         };
         let moment = Moment {
             case: &case,

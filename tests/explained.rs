@@ -61,6 +61,7 @@ fn every_model_explains_the_number_of_the_solution() {
                 torques: &[12.0],
                 flow: PowerFlow::Real,
                 tolerance: Tolerance::default(),
+                inclination: 0.0,
             };
             let solution = t.evaluate(&case, &point, &[90.0], &mut scratch);
             let Some(part) = t.parts().iter().position(|p| p.path == path) else {

@@ -51,6 +51,7 @@ fn watts(t: &Transmission, part: &str) -> f64 {
         torques: &[4.0],
         flow: PowerFlow::Ideal,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[25.0], &mut scratch);
     let number = t.parts().iter().position(|p| p.path == part).unwrap();

@@ -92,6 +92,7 @@ fn points(language: &Language, gearbox: &Gearbox, overrides: &[(&str, Value)]) -
                 torques: &[torque],
                 flow: PowerFlow::Real,
                 tolerance: Tolerance::default(),
+                inclination: 0.0,
             };
             let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
             all.push([torque, speed, solution.loss().unwrap()]);

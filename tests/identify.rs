@@ -55,6 +55,7 @@ fn points(overrides: &[(&str, Value)], torques: &[f64], speeds: &[f64]) -> Vec<[
                 torques: &[*torque],
                 flow: PowerFlow::Real,
                 tolerance: Tolerance::default(),
+                inclination: 0.0,
             };
             let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
             let turning = solution.speed(t.ports()[out].member) / RPM;

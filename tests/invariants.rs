@@ -212,6 +212,7 @@ fn solve(language: &Language, yaml: &str, factor: Option<f64>, [speed, torque]: 
             power: 1e-13,
             passes: 100,
         },
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
     let seen = Seen {

@@ -33,6 +33,7 @@ fn solve(t: &Transmission, gear: &str, speeds: &[(&str, f64)], torques: &[(&str,
         torques: &torques,
         flow,
         tolerance,
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
     Seen {

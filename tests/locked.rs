@@ -52,6 +52,7 @@ fn split(t: &Transmission, apart: f64) -> f64 {
         torques: &[400.0],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     assert!(solution.residual().unwrap().abs() <= 1e-12 * solution.largest_power());

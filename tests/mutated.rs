@@ -56,6 +56,7 @@ fn try_all(text: &str) {
             torques: &torques,
             flow: PowerFlow::Real,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         };
         let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
         for value in [solution.loss(), solution.efficiency(), solution.loss_torque()]

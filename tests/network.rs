@@ -88,6 +88,7 @@ impl Drive {
             torques: &torques,
             flow: PowerFlow::Real,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         };
         let around = Surroundings::default();
         act(&Moment {

@@ -213,6 +213,155 @@ fn a_bearing_behind_a_wall_needs_a_pocket_with_oil() {
     );
 }
 
+/// Grade and acceleration of a cycle incline the oil as the `grade` or `bank` of a gearbox that stands inclined.
+#[test]
+fn a_cycle_inclines_the_oil_as_a_stated_grade_does() {
+    let language = language();
+    let with = |keys: &str| {
+        let text = std::fs::read_to_string(file("examples/two-speed-ev/gearbox.yaml")).unwrap();
+        let text = text
+            .replace("volume: 1.2 l, level: -49 mm", "volume: 1.9 l")
+            .replace("  section: { area", &format!("  {keys}\n  section: {{ area"))
+            .replace("{ type: iso14179_2, speed_of: pinion }", LYON)
+            .replace("  bearing: { type: iso14179_2 }", "  bearing: { type: skf }")
+            .replace(", oil_height: 14 mm", "");
+        let files = InMemory::default().shared();
+        let gearbox = Gearbox::from_text(&language, &files, &text, "gearbox.yaml", Path::new("")).unwrap();
+        let t = gearbox.transmission(&language, &Choice::default());
+        t.unwrap_or_else(|found| panic!("{}", found.render()))
+    };
+    let solved = |t: &Transmission, degrees: f64| {
+        let case = t.case("first", &[], &["input"]).unwrap();
+        let mut scratch = t.scratch(&case);
+        let point = Point {
+            speeds: &[8000.0 * std::f64::consts::PI / 30.0],
+            torques: &[10.0],
+            inclination: f64::to_radians(degrees),
+            ..Point::default()
+        };
+        let solution = t.evaluate(&case, &point, &[60.0], &mut scratch);
+        let sum = |mechanism: &str| {
+            let parts = solution.parts().filter(|(part, _)| part.mechanism == mechanism);
+            parts.map(|(_, loss)| loss.watts()).sum::<f64>()
+        };
+        (solution.oil_levels().unwrap(), sum("gear_drag"), sum("bearing"))
+    };
+    let level = solved(&with(""), 0.0);
+    for (travel, stated, sign) in [
+        ("+x", "grade", 1.0),
+        ("-x", "grade", -1.0),
+        ("+y", "bank", 1.0),
+        ("-y", "bank", -1.0),
+    ] {
+        let travels = with(&format!("travel: \"{travel}\""));
+        // A level road changes nothing, to the bit.
+        let same = solved(&travels, 0.0);
+        assert_eq!(same.0.at_rest.to_bits(), level.0.at_rest.to_bits());
+        assert_eq!([same.1, same.2].map(f64::to_bits), [level.1, level.2].map(f64::to_bits));
+        for degrees in [10.0, -6.0, 7.3] {
+            let (own, churning, bearings) = solved(&travels, degrees);
+            let (of_stated, stated_churning, stated_bearings) =
+                solved(&with(&format!("{stated}: {} deg", sign * degrees)), 0.0);
+            // Whole degrees are exact.
+            let near = if f64::round(degrees) == degrees { 1e-11 } else { 5e-6 };
+            assert!(
+                (own.at_rest - of_stated.at_rest).abs() < near,
+                "{travel} {degrees}: {own:?} {of_stated:?}"
+            );
+            assert!(
+                (churning / stated_churning - 1.0).abs() < 300.0 * near,
+                "{travel} {degrees}: {churning} {stated_churning}"
+            );
+            // The walls of the film are those above the level on a level road.
+            assert!(
+                (own.running - of_stated.running).abs() < 0.5e-3,
+                "{travel} {degrees}: {own:?} {of_stated:?}"
+            );
+            assert!(
+                (bearings / stated_bearings - 1.0).abs() < 0.02,
+                "{travel} {degrees}: {bearings} {stated_bearings}"
+            );
+            assert!((own.estimate.unwrap().volume / level.0.estimate.unwrap().volume - 1.0).abs() < 1e-9);
+        }
+    }
+    // Without a direction of travel a point is not inclined.
+    assert_eq!(solved(&with(""), 20.0).1.to_bits(), level.1.to_bits());
+}
+
+/// A gear throws oil through a window in front of a bearing; the share is that of the flight, and the flow that of the estimate.
+#[test]
+fn gears_throw_oil_through_windows() {
+    let language = language();
+    let slow = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+    let text = |window: &str| {
+        let pocket = format!(
+            "at: 60 mm, designation: \"6205\", fed: false, pocket: {{ edge: 5 mm, edge_radius: 15 mm, window: {{ gear: wheel, {window} }} }} }}"
+        );
+        slow.replace("at: 60 mm, designation: \"6205\" }", &pocket)
+            .replace("100 rpm", "3000 rpm")
+    };
+    let solved = |window: &str, speed: f64| {
+        let files = InMemory::default().shared();
+        let gearbox = Gearbox::from_text(&language, &files, &text(window), "slow.yaml", Path::new("")).unwrap();
+        let t = gearbox.transmission(&language, &Choice::default());
+        let t = t.unwrap_or_else(|found| panic!("{}", found.render()));
+        let case = t.case(&t.states()[0].name, &[], &["input"]).unwrap();
+        let mut scratch = t.scratch(&case);
+        let point = Point {
+            speeds: &[speed * std::f64::consts::PI / 30.0],
+            torques: &[10.0],
+            ..Point::default()
+        };
+        let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
+        let pocket = solution.pockets().next().unwrap();
+        let lifted = solution.oil_levels().unwrap().estimate.unwrap().lifted;
+        (pocket.window.unwrap(), pocket.inflow, pocket.height, lifted)
+    };
+    // The wheel turns against the pinion: its lowest point moves away from it for one sense and towards it for the other.
+    let wide = |y: &str| format!("y: {y} mm, bottom: -60 mm, top: 400 mm, from: -100 mm, to: 160 mm");
+    let (own, inflow, height, lifted) = solved(&wide("-20"), 3000.0);
+    let (other, nothing, ..) = solved(&wide("140"), 3000.0);
+    let (back, ..) = solved(&wide("140"), -3000.0);
+    assert!(own.share > 0.5 || other.share > 0.5, "{own:?} {other:?}");
+    let hit = if own.share > other.share {
+        (own, inflow, height)
+    } else {
+        (other, nothing, 0.0)
+    };
+    assert!(
+        hit.0.flow <= lifted * (1.0 + 1e-12) && hit.0.flow == hit.1,
+        "{hit:?} {lifted}"
+    );
+    assert_eq!(own.share.min(other.share), 0.0);
+    assert!((back.share > 0.0) != (other.share > 0.0));
+    // Below the speed at which gears throw oil there is none.
+    assert_eq!(solved(&wide("-20"), 100.0).0.flow, 0.0);
+    assert_eq!(solved(&wide("140"), 100.0).0.flow, 0.0);
+    // A window high above is missed.
+    let checked = |window: &str| {
+        let files = InMemory::default().shared();
+        let gearbox = Gearbox::from_text(&language, &files, &text(window), "slow.yaml", Path::new("")).unwrap();
+        let resolved = gearbox.resolve(&language, &Choice::default()).unwrap();
+        CheckedGearbox::new(&language, gearbox, resolved).unwrap().warnings()
+    };
+    let missed = |window: &str| {
+        let found = checked(window)
+            .into_iter()
+            .filter(|found| found.code == Some(codes::MISSED_WINDOW));
+        found.map(|found| found.message).collect::<Vec<_>>()
+    };
+    let high = |y: &str| format!("y: {y} mm, bottom: 3000 mm, top: 3100 mm, from: -100 mm, to: 160 mm");
+    let found: Vec<String> = [high("-20"), high("140")]
+        .iter()
+        .flat_map(|window| missed(window))
+        .collect();
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert!(
+        found.iter().any(|message| message.contains("meets the wall")),
+        "{found:?}"
+    );
+}
+
 /// A rib catches its part of the oil that the gears lift at the point.
 #[test]
 fn lifted_oil_fills_pockets() {

@@ -52,6 +52,7 @@ fn with_oil(t: &Transmission, part: &str, speed: f64, torque: f64, oil: f64) -> 
         torques: &[torque],
         flow: PowerFlow::Ideal,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[oil], &mut scratch);
     let number = t.parts().iter().position(|p| p.path == part).unwrap();

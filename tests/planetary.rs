@@ -23,6 +23,7 @@ fn losses(t: &Transmission, speed: f64, torque: f64, flow: PowerFlow) -> (Vec<(S
         torques: &[torque],
         flow,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     let parts = solution.parts().map(|(p, l)| (p.path.clone(), l.watts())).collect();
@@ -143,6 +144,7 @@ fn the_explanation_of_an_unequal_planet_has_the_bits_of_the_solution() {
         torques: &[60.0],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     let watts: Vec<f64> = solution.parts().map(|(_, loss)| loss.watts()).collect();
@@ -291,6 +293,7 @@ fn drag(t: &Transmission, input: f64) -> Option<(f64, bool)> {
         torques: &[0.0],
         flow: PowerFlow::Ideal,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     let outside = solution.extents().iter().any(|e| e.outside > 0);
@@ -507,6 +510,7 @@ fn a7_planets_turn_as_willis_says() {
             torques: &[0.0],
             flow: PowerFlow::Ideal,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         };
         let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
         let speed = |name: &str| solution.speed(t.members().iter().position(|m| m == name).unwrap()) / RPM;

@@ -42,6 +42,7 @@ fn balanced(t: &Transmission, speed: f64, torque: f64) -> (Equilibrium, Vec<(Str
         torques: &[torque],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let warm = OilTemperature::Balance.find(t, &case, &point, &mut scratch);
     let (oil, found) = (warm.oil, warm.balance);
@@ -125,6 +126,7 @@ fn drag_at(t: &Transmission, speed: f64, nu: f64) -> f64 {
         torques: &[0.0],
         flow: PowerFlow::Ideal,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     // The viscosity of 220 mm2/s at 40 degC and 26 at 100 degC, after ASTM D341.
     let w = |nu: f64| (nu + 0.7).log10().log10();
@@ -208,6 +210,7 @@ fn temperature_follows_speed_load_oil_and_surroundings() {
         torques: &[0.0],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let found = t.equilibrium(&case, &point, &mut t.scratch(&case));
     assert_eq!((found.outcome, found.oil()), (Outcome::Converged, Some(20.0)));
@@ -224,6 +227,7 @@ fn probing_leaves_no_notes() {
         torques: &[-16.0],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     t.equilibrium(&case, &point, &mut scratch);
     assert!(

@@ -29,6 +29,7 @@ fn a_point_allocates_nothing() {
                 torques: &[torque],
                 flow: PowerFlow::Real,
                 tolerance: Tolerance::default(),
+                inclination: 0.0,
             };
             t.evaluate(&case, &point, &[100.0], &mut scratch).loss()
         };

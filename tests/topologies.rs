@@ -37,6 +37,7 @@ fn solve(
         torques: &torques,
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     assert!(solution.residual().unwrap().abs() <= 1e-12 * solution.largest_power().max(1e-300));
@@ -140,6 +141,7 @@ fn wheels_on_one_rigid_axle_share_the_torque_equally() {
         torques: &[50.0],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     let halves = solution.member_torques();
@@ -221,6 +223,7 @@ fn the_planet_bearing_carries_both_meshes_and_the_centrifugal_force() {
         torques: &[60.0],
         flow: PowerFlow::Ideal,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     // Spur gears at the reference distance: twice the tangential force across, the mass of the planet outwards.
@@ -260,6 +263,7 @@ fn parallel_paths_share_as_stated_in_every_state_that_closes_them() {
         torques: &[10.0],
         flow: PowerFlow::Ideal,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     assert!((solution.mesh_torque(0).abs() - 7.0).abs() < 1e-9 && (solution.mesh_torque(1).abs() - 3.0).abs() < 1e-9);

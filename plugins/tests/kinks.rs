@@ -129,6 +129,7 @@ fn csv(language: &Language, gearbox: &Gearbox, churning: &str) -> String {
                     torques: &[torque],
                     flow: PowerFlow::Real,
                     tolerance: Tolerance::default(),
+                    inclination: 0.0,
                 };
                 let loss = t.evaluate(&case, &point, &[oil], &mut scratch).loss().unwrap();
                 let seen = loss * (1.0 + NOISE * noise.next());

@@ -182,6 +182,7 @@ impl Rig {
             torques: &[torque],
             flow: PowerFlow::Real,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         };
         let solution = t.evaluate(&case, &point, &[oil], &mut scratch);
         let out = t.port("output").unwrap();

@@ -28,7 +28,8 @@ use crate::document::{Diagnostic, did_you_mean};
 use crate::hydraulics::{Supplies, Supply};
 use crate::immersion::Height;
 use crate::loads::SupportLoad;
-use crate::real::{Points, Real};
+use crate::real::Points;
+use crate::sump::Travel;
 
 mod sealed {
     pub trait Sealed {}
@@ -170,13 +171,27 @@ pub enum Level {
         slope: f64,
         /// Radius of the orbit of the axis about that point; zero for a stationary axis. \[m\]
         orbit: f64,
+        /// The point from the datum (m), and the direction of the axis.
+        axis: [[f64; 3]; 2],
     },
 }
+
+/// Inclination of the housing at each point, in addition to that as built.
+#[derive(Debug, Clone, Copy)]
+pub struct Incline<'a, R = f64> {
+    /// How the housing travels.
+    pub travel: &'a Travel,
+    /// Positive raises what is ahead. \[rad\]
+    pub angle: R,
+}
+
+/// Least rise across an axis.
+const UPRIGHT: f64 = 1e-6;
 
 impl Level {
     /// Height of a surface above the axis, across the shafts.
     #[inline(always)]
-    pub(crate) fn under<R: Real>(self, surface: R) -> Height<R> {
+    pub(crate) fn under<R: Points>(self, surface: R, incline: Option<Incline<'_, R>>) -> Height<R> {
         match self {
             Self::Dry => Height {
                 level: R::constant(f64::NEG_INFINITY),
@@ -186,11 +201,45 @@ impl Level {
                 level: R::constant(level),
                 orbit: 0.0,
             },
-            Self::Sump { height, slope, orbit } => Height {
-                level: (surface - height) * slope,
-                orbit,
+            Self::Sump {
+                height, slope, orbit, ..
+            } => match incline {
+                None => Height {
+                    level: (surface - height) * slope,
+                    orbit,
+                },
+                Some(incline) => {
+                    let [height, slope] = self.axis(incline);
+                    Height {
+                        level: (surface - height) * slope,
+                        orbit,
+                    }
+                }
             },
         }
+    }
+
+    /// Height of the axis above the datum (m) and one over the rise across it, at the inclination of each point; zeros without a sump.
+    pub(crate) fn axis<R: Points>(self, incline: Incline<'_, R>) -> [R; 2] {
+        let Self::Sump {
+            height, slope, axis, ..
+        } = self
+        else {
+            return [R::ZERO; 2];
+        };
+        let [place, direction] = axis;
+        let at = |point: usize| {
+            let angle = incline.angle.at_point(point);
+            if angle == 0.0 {
+                return [height, slope];
+            }
+            let up = incline.travel.up(angle);
+            let dot = |a: [f64; 3]| up[0] * a[0] + up[1] * a[1] + up[2] * a[2];
+            let along = dot(direction);
+            let across = (1.0 - along * along).max(0.0).sqrt().max(UPRIGHT);
+            [dot(place), 1.0 / across]
+        };
+        [0, 1].map(|i| R::each(|point| at(point)[i]))
     }
 }
 
@@ -207,6 +256,8 @@ pub struct State<'a, R = f64> {
     pub surface: R,
     /// The same at rest, for churning laws. \[m\]
     pub rest: R,
+    /// Inclination of the housing, if a point has any.
+    pub incline: Option<Incline<'a, R>>,
     /// What the oil network supplies.
     pub supplies: Supplies<'a, R>,
     /// Loads of the supports.
@@ -250,7 +301,7 @@ impl<'a, R: Points> State<'a, R> {
     /// Oil height above the axis at a spot.
     #[inline(always)]
     pub fn level(&self, spot: &Spot) -> Height<R> {
-        spot.level.under(self.surface)
+        spot.level.under(self.surface, self.incline)
     }
 }
 
@@ -385,7 +436,7 @@ impl<'a> Names<'a> {
     fn add_pocket(&mut self, entry: &PocketEntry) -> u16 {
         self.pockets.push(SeatedPocket {
             path: self.path.clone(),
-            entry: *entry,
+            entry: entry.clone(),
             oil: 0,
         });
         (self.pockets.len() - 1) as u16

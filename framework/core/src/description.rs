@@ -34,7 +34,7 @@ pub use housing::{
 };
 pub use lubricant::{Consistency, GreaseEntry, LubricantEntry};
 pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
-pub use oil_network::{HoleEntry, OilNetworkEntry, PocketEntry};
+pub use oil_network::{HoleEntry, OilNetworkEntry, PocketEntry, WindowEntry};
 pub use plausibility::PlausibilityEntry;
 pub use shafts::{AxisEntry, DirectedAxis, LoadEntry, SectionEntry, ShaftEntry, Unsupported};
 pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, TorqueShare};

@@ -15,7 +15,7 @@ mod transfers;
 pub use batch::{Batch, BatchScratch, Block};
 pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
 pub use oil_level::{LevelEstimate, LevelFrom, OilLevels};
-pub use oil_supply::{ChamberLevel, ElementFlow, OilSupply, PocketLevel, SupplyFinding};
+pub use oil_supply::{ChamberLevel, ElementFlow, OilSupply, PocketLevel, SupplyFinding, WindowFlow};
 pub use ratings::{ComponentRating, Ratings};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
@@ -27,7 +27,7 @@ pub use solution::{PartLoss, PreloadAt, Solution, ToothForceAt};
 use crate::attach::{Oil, State};
 use crate::flow::{Balance, Drive, FlowState, Outcome, Start, Status, Tolerance};
 use crate::geometry::crossed::Flank;
-use crate::hydraulics::Inputs;
+use crate::hydraulics::{Inputs, Window};
 use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad, ToothForces};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
 use crate::mechanism::Answers;
@@ -39,7 +39,7 @@ use crate::mechanism::worm_mesh::{WormMesh, WormMeshAt, WormPart};
 use crate::real::{Mask as _, Points, Real};
 use crate::sump::CAPTURE;
 use crate::thermal::Unbalanced;
-use crate::transmission::{Case, Component, CrossedTeeth, MeshLaw, Sharing, Transmission};
+use crate::transmission::{Case, Component, CrossedTeeth, MeshLaw, Sharing, Surface, Transmission};
 
 /// Whether torque downstream is reduced by upstream losses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -75,6 +75,8 @@ pub struct Point<'a> {
     pub flow: PowerFlow,
     /// Tolerance of the agreement between loads and losses.
     pub tolerance: Tolerance,
+    /// Inclination of the housing in its direction of travel, in addition to that as built; not used if the housing states none. \[rad\]
+    pub inclination: f64,
 }
 
 impl Point<'_> {
@@ -190,7 +192,17 @@ impl Transmission {
         s.models.conditions.temperatures.extend_from_slice(temperatures);
         s.models.conditions.common = true;
         s.models.conditions.live = true;
+        s.models.conditions.inclination = self.inclination_of(point);
         self.settle_prescribed(case, s, !0, noting);
+    }
+
+    /// Inclination of a point, in addition to that as built; none if the housing does not travel. \[rad\]
+    fn inclination_of(&self, point: &Point<'_>) -> f64 {
+        if self.oils.travel().is_some() {
+            point.inclination
+        } else {
+            0.0
+        }
     }
 
     /// Computes speeds, oils and all values that are independent of torque, from what is prescribed. Points that do not differ in it from
@@ -203,6 +215,16 @@ impl Transmission {
         c.rest = self.oils.at_rest(&c.speeds, &c.oils);
         // Until the drag of the gears is known, no oil is lifted.
         c.surface = self.oils.running(&c.speeds, c.rest);
+        c.travel = self.oils.travel().filter(|_| !c.inclination.is_zero().all()).copied();
+        if let Some(sump) = self.oils.sump.as_ref().filter(|_| c.travel.is_some()) {
+            // The level is that of the same oil.
+            let rest = sump.inclined(c.rest, c.inclination);
+            c.surface = match self.oils.surface() {
+                Surface::AtRest | Surface::Estimated(_) => rest,
+                Surface::Fixed(_) | Surface::Over { .. } => sump.inclined(c.surface, c.inclination),
+            };
+            c.rest = rest;
+        }
         self.write_closings(&c.temperatures, &c.oils, &mut m.closings);
         self.hydraulics.solve(
             &Inputs {
@@ -245,7 +267,7 @@ impl Transmission {
                 surface: c.surface,
             };
             let held = self.hydraulics.held(&c.hydraulics, &at);
-            let running = sump.running(c.rest, held, &c.oils, &m.lifted);
+            let running = sump.running((c.rest, c.inclination), held, &c.oils, &m.lifted);
             if let Some((_, place)) = estimated {
                 c.surface = if place == 0.0 {
                     running.film_level(CAPTURE[1])
@@ -256,7 +278,9 @@ impl Transmission {
             if wetting.is_some() {
                 let nu = c.oils[sump.oil].nu;
                 let [_, flow] = running.missing(|i| m.lifted[i], c.surface, nu, CAPTURE[1]);
-                self.hydraulics.catch(flow, sump.walls().length, &at, &mut c.hydraulics);
+                let thrown = |window: &Window| sump.through(window, (&c.speeds, c.surface), &m.lifted).1;
+                self.hydraulics
+                    .catch((flow, sump.walls().length), thrown, &at, &mut c.hydraulics);
             }
         }
         let (state, book) = c.open(noting != Noting::Muted);
@@ -595,9 +619,18 @@ impl Transmission {
         let towards = |i: usize| {
             let turns = |point: usize| {
                 let own = speed[i].at_point(point);
-                seat.mates[i].iter().any(|y| own * y > 0.0)
+                seat.mates[i].iter().any(|mate| own * mate.y > 0.0)
             };
             R::each(|point| f64::from(u8::from(turns(point))))
+        };
+        // The highest mesh towards which the lowest point moves.
+        let mesh_height = |i: usize| {
+            let highest = |point: usize| {
+                let own = speed[i].at_point(point);
+                let drawn = seat.mates[i].iter().filter(|mate| own * mate.y > 0.0);
+                drawn.fold(0.0, |highest: f64, mate| highest.max(mate.height))
+            };
+            R::each(highest)
         };
         let second = |x: R| if seat.pair { x } else { R::ZERO };
         GearDragAt {
@@ -610,6 +643,8 @@ impl Transmission {
             dip_2: second(level[1].dip(seat.radii[1][1])),
             towards_mesh: towards(0),
             towards_mesh_2: second(towards(1)),
+            mesh_height: mesh_height(0),
+            mesh_height_2: second(mesh_height(1)),
             temperature: oil.temperature,
             nu: oil.nu,
             eta: oil.eta,

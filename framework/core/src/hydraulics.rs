@@ -8,6 +8,7 @@ mod network;
 mod orifice;
 mod pocket;
 mod solve;
+mod window;
 
 pub use channel::{Channel, friction_factor};
 pub use edge::Edge;
@@ -16,6 +17,7 @@ pub use network::{Driver, Element, End, Fluid, Hydraulics, Law, Relief, Supplies
 pub use orifice::Orifice;
 pub use pocket::{Chamber, Pocket, Rib};
 pub(crate) use solve::Work;
+pub use window::{Taken, Window};
 
 /// Standard acceleration of gravity. \[m/s2\]
 pub const GRAVITY: f64 = 9.80665;

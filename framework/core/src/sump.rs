@@ -4,12 +4,14 @@
 
 mod disc;
 mod hull;
+mod inclined;
 mod outline;
 mod running;
 mod space;
 
 pub use disc::Disc;
 pub use hull::{CHORDS, hull};
+pub use inclined::{AnySpace, Inclinations, STEEPEST, Travel, apparent_grade};
 pub use outline::{Outline, Profile};
 pub use running::{Band, CAPTURE, LEAST_SPLASH, Lift, Lifted, Running, Walls, effective_share, film};
 pub use space::{Crowded, Space};

@@ -441,6 +441,10 @@ impl Transmission {
     pub fn housing(&self) -> &Housing {
         &self.housing
     }
+    /// True if cycles incline the oil: the housing states its direction of travel.
+    pub fn travels(&self) -> bool {
+        self.oils.travel().is_some()
+    }
     /// Volume of the oil in the housing, if it is known, and its mass at the temperature of [`Self::oil_temperature`]. \[m3 and kg\]
     pub fn oil_fill(&self) -> Option<(f64, f64)> {
         self.oils.fill(self.oil_temperature)

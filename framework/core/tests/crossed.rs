@@ -70,6 +70,7 @@ fn solved<T>(t: &Transmission, torque: f64, speed: f64, show: impl FnOnce(&Solut
         torques: &[torque],
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     };
     show(&t.evaluate(&case, &point, &[80.0], &mut scratch))
 }

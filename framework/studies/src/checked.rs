@@ -5,7 +5,7 @@ use std::path::Path;
 use gearloss_framework::codes;
 use gearloss_framework::coefficients::{Changed, changed_from_source};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::evaluate::{Point, PowerFlow, Ratings, Solution};
+use gearloss_framework::evaluate::{Point, PowerFlow, Ratings, Solution, WindowFlow};
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
@@ -103,9 +103,10 @@ impl CheckedGearbox {
             .collect()
     }
 
-    /// What the oil network lacks at the rated speed and at a tenth of it, with places.
+    /// What the oil network lacks at the rated speed and at a tenth of it, and windows that no oil meets, with places.
     pub fn short_of_oil(&self) -> Vec<Diagnostic> {
         let found = short_of_oil(&self.transmission).into_iter();
+        let found = found.chain(missed_windows(&self.transmission));
         found.map(|warning| self.gearbox.places.place(warning)).collect()
     }
 
@@ -304,6 +305,46 @@ fn unfed_bearings(checked: &CheckedGearbox) -> Vec<Diagnostic> {
             .code(codes::OIL_LEVEL)
     };
     dry.map(warning).collect()
+}
+
+/// Windows through which no gear throws oil at the rated speed in any gear.
+fn missed_windows(t: &Transmission) -> Vec<Diagnostic> {
+    let mut asked: Vec<(String, WindowFlow)> = Vec::new();
+    at_the_rating(t, |solution| {
+        for pocket in solution.pockets() {
+            let Some(window) = pocket.window else { continue };
+            match asked.iter_mut().find(|(path, _)| path == pocket.bearing) {
+                Some((_, most)) if window.flow > most.flow => *most = window,
+                // Where oil meets the wall says more than where none does.
+                Some((_, most)) if most.flow == 0.0 && most.meets == [0.0; 2] => *most = window,
+                Some(_) => {}
+                None => asked.push((pocket.bearing.to_owned(), window)),
+            }
+        }
+    });
+    let missed = asked.into_iter().filter(|(_, window)| window.flow <= 0.0);
+    let warning = |(path, window): (String, WindowFlow)| {
+        let mm = |x: f64| significant(x * 1e3);
+        let ([low, high], [bottom, top]) = (window.meets, window.edges);
+        let flight = if window.meets == [0.0; 2] {
+            "no oil of its gear meets the wall".to_owned()
+        } else {
+            format!(
+                "the oil of its gear meets the wall {} to {} mm above its axis, the window is {} to {} mm above it",
+                mm(low),
+                mm(high),
+                mm(bottom),
+                mm(top)
+            )
+        };
+        Diagnostic::warning(
+            format!("{path}.pocket.window"),
+            format!("no oil comes through the window at the rated speed: {flight}"),
+        )
+        .help("move the window, name another gear, or check the sense of rotation and the oil level")
+        .code(codes::MISSED_WINDOW)
+    };
+    missed.map(warning).collect()
 }
 
 /// A quantity of a rating that is outside its bound at the rated torque and speed.

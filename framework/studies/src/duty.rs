@@ -70,6 +70,8 @@ pub struct Interval {
     pub duration: f64,
     /// Demand on the transmission.
     pub demand: Demand,
+    /// Inclination of the apparent vertical by the grade of the road and the acceleration; positive as uphill. \[rad\]
+    pub inclination: f64,
     /// Boundary conditions.
     pub given: Given,
 }

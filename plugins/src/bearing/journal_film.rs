@@ -14,9 +14,13 @@
 //! Assumes a full bush without grooves in the loaded zone, a rigid, aligned shaft, steady load, enough oil and laminar flow. Where both members
 //! turn, the film is drawn in by the sum of their speeds relative to the load, and friction is taken at the speed relative to each other. An axial
 //! load has no friction: it needs a thrust washer. Not for grease, dry bushes or dynamic loads.
+//! An explanation shows the stiffness at constant speed and viscosity, derived from F cos(beta) and F sin(beta) over the eccentricity: `k_xx` is the force
+//! along the load per displacement along it, `k_xy` per displacement across it, `k_yx` and `k_yy` the same for the force across the load. `F/x` is the load over
+//! the displacement in its direction, a value for `radial_stiffness`.
 
 mod characteristics;
 mod film;
+mod stiffness;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Loss, Undefined};
@@ -31,6 +35,7 @@ use serde::Deserialize;
 use characteristics::DIN_WIDEST;
 pub use characteristics::FilmFit;
 pub use film::{Film, Journal};
+pub use stiffness::Loaded;
 
 terms! {
     CONCENTRIC = no_load("concentric");
@@ -103,6 +108,18 @@ impl BearingLaw for Journal {
         });
         at.check(&LAMINAR, film.turbulence);
         at.observe(&STIFFNESS, film.stiffness * 1e-6);
+        let under = self.loaded(at.radial, &film);
+        let [[xx, xy], [yx, yy]] = under.matrix();
+        let stiffnesses = [
+            ("k_xx", xx),
+            ("k_xy", xy),
+            ("k_yx", yx),
+            ("k_yy", yy),
+            ("F/x", under.in_operation()),
+        ];
+        for (symbol, k) in stiffnesses {
+            at.show(symbol, "N/um", R::select(loaded, k * 1e-6, R::ZERO));
+        }
         at.observe(&FLOW, film.flow * 6e4);
         let [concentric, eccentric, contact] = film.moments;
         Ok(Loss::MOMENTS
@@ -284,6 +301,37 @@ mod tests {
         let place = |load: f64| at(&part, 1500.0, load).0.place.eccentricity * clearance;
         let slope = (2001.0 - 1999.0) / (place(2001.0) - place(1999.0));
         assert_close(at(&part, 1500.0, 2000.0).0.stiffness, slope, 1e-6);
+    }
+
+    /// A small further load along or across displaces the shaft as the matrix of the film says; without load it only pushes across.
+    #[test]
+    fn the_matrix_is_the_slope_of_the_place() {
+        let part = part(0.5, |_| ());
+        let journal = Journal::of(&part, FilmFit::Reynolds).unwrap();
+        let clearance = 1.5e-3 * 0.03;
+        let place = |load: f64| {
+            let film = at(&part, 1500.0, load).0;
+            (film.place.eccentricity * clearance, film.sine.asin())
+        };
+        for load in [200.0, 2000.0, 20_000.0] {
+            let [[xx, xy], [yx, yy]] = journal.loaded(load, &at(&part, 1500.0, load).0).matrix();
+            let more = 1e-4 * load;
+            let [(e1, b1), (e2, b2)] = [load - more, load + more].map(place);
+            let change = [e2 * b2.cos() - e1 * b1.cos(), e2 * b2.sin() - e1 * b1.sin()];
+            assert!(
+                (xx * change[0] + xy * change[1] - 2.0 * more).abs() < 1e-6 * load,
+                "{load}"
+            );
+            assert!((yx * change[0] + yy * change[1]).abs() < 1e-6 * load, "{load}");
+            // A load that is turned turns the place.
+            let (e, beta) = place(load);
+            let turned = [-e * beta.sin(), e * beta.cos()];
+            assert!((xx * turned[0] + xy * turned[1]).abs() < 1e-6 * load, "{load}");
+            assert!((yx * turned[0] + yy * turned[1] - load).abs() < 1e-6 * load, "{load}");
+        }
+        let [[xx, xy], [yx, yy]] = journal.loaded(1e-3, &at(&part, 1500.0, 1e-3).0).matrix();
+        assert!(xx.abs() < 1e-3 * xy && yy.abs() < 1e-3 * xy, "{xx} {yy} {xy}");
+        assert_close(yx, -xy, 1e-3);
     }
 
     #[test]

@@ -56,6 +56,7 @@ fn point<'a>(speed: &'a [f64; 1], torque: &'a [f64; 1]) -> Point<'a> {
         torques: torque,
         flow: PowerFlow::Real,
         tolerance: Tolerance::default(),
+        inclination: 0.0,
     }
 }
 

@@ -28,6 +28,40 @@ pub struct HousingEntry {
     #[serde(default)]
     #[schemars(range(min = -89.0, max = 89.0))]
     pub bank: f64,
+    /// Direction of travel of the vehicle in the housing. With it, road grade and acceleration of a cycle incline the oil in addition to
+    /// `grade` and `bank`, and the level follows from the volume at each moment. Default: a cycle does not incline the oil, because nothing
+    /// else says how the gearbox is mounted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub travel: Option<TravelDirection>,
+}
+
+/// A horizontal direction in the housing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum TravelDirection {
+    /// Along the shafts, towards +x.
+    #[serde(rename = "+x")]
+    AlongX,
+    /// Along the shafts, towards -x.
+    #[serde(rename = "-x")]
+    AgainstX,
+    /// Across the shafts, towards +y.
+    #[serde(rename = "+y")]
+    AlongY,
+    /// Across the shafts, towards -y.
+    #[serde(rename = "-y")]
+    AgainstY,
+}
+
+impl TravelDirection {
+    /// The unit vector.
+    pub fn direction(self) -> [f64; 3] {
+        match self {
+            Self::AlongX => [1.0, 0.0, 0.0],
+            Self::AgainstX => [-1.0, 0.0, 0.0],
+            Self::AlongY => [0.0, 1.0, 0.0],
+            Self::AgainstY => [0.0, -1.0, 0.0],
+        }
+    }
 }
 
 /// The sump.

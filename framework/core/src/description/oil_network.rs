@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Ordered;
-use crate::hydraulics::Rib;
+use crate::hydraulics::{Orifice, Rib};
 
 /// A network of oil flows. Elements lead from `sump` or a junction to a junction, a chamber, `sump` or `housing`, the air of the housing.
 /// Pressures are those over the air of the housing.
@@ -147,6 +147,19 @@ pub struct HoleEntry {
     pub count: u32,
 }
 
+impl HoleEntry {
+    /// Its law.
+    pub fn orifice(&self) -> Orifice {
+        let usual = if self.length < self.diameter { 0.61 } else { 0.8 };
+        Orifice {
+            diameter: self.diameter,
+            length: self.length,
+            discharge: self.discharge.unwrap_or(usual),
+            count: f64::from(self.count),
+        }
+    }
+}
+
 /// A nozzle or orifice.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct NozzleEntry {
@@ -242,7 +255,7 @@ pub struct ChamberEntry {
 }
 
 /// The pocket of a bearing, between it and its cover or seal: oil stands in it up to the lowest edge over which it escapes.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct PocketEntry {
     /// Height of the lowest edge over which oil escapes, above the lowest point of the outer raceway. [mm]
     #[schemars(range(min = 0.0, max = 2000.0))]
@@ -265,6 +278,31 @@ pub struct PocketEntry {
     /// Rib that leads oil from the wall into the pocket.
     #[serde(rename = "catch")]
     pub rib: Option<CatchEntry>,
+    /// Window or open front through which a gear throws oil into the pocket.
+    pub window: Option<WindowEntry>,
+}
+
+/// A window in a wall beside a gear, with its places in the housing. What it takes of the oil that the gear lifts follows from the flight.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+pub struct WindowEntry {
+    /// Gear that throws the oil, with a churning law and an axis along x.
+    #[schemars(extend("x-refers-to" = "gears"))]
+    pub gear: String,
+    /// y of the wall. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub y: f64,
+    /// z of the lower edge. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub bottom: f64,
+    /// z of the upper edge. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub top: f64,
+    /// Beginning along the shafts. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub from: f64,
+    /// End along the shafts. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub to: f64,
 }
 
 /// A rib on a wetted wall: it catches the film that runs down above it. Its flow is uncertain by a factor of three.

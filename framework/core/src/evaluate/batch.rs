@@ -152,8 +152,9 @@ impl Transmission {
         }
         c.common = false;
         c.live = Lane::mask(|lane| lane < points.len());
+        c.inclination = Lane::each(|lane| self.inclination_of(&points[own(lane)]));
         let same = |lane: usize| {
-            let mut values = s.prescribed.iter().chain(&c.temperatures);
+            let mut values = s.prescribed.iter().chain(&c.temperatures).chain([&c.inclination]);
             values.all(|value| value[lane].to_bits() == value[lane - 1].to_bits())
         };
         let starts = Lane::bits(Lane::mask(|lane| lane == 0 || !same(lane)));
@@ -255,6 +256,8 @@ impl Scratch<Lane> {
         }
         c.surface = Lane::constant(common.surface);
         c.rest = Lane::constant(common.rest);
+        c.inclination = Lane::constant(common.inclination);
+        c.travel = common.travel;
         c.hydraulics.take_common(&common.hydraulics);
         c.common = true;
         c.forget();

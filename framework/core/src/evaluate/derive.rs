@@ -169,6 +169,7 @@ impl Transmission {
             varied(temperature, given == GivenQuantity::OilTemperature)
         };
         s.models.conditions.temperatures.push(temperature);
+        s.models.conditions.inclination = Dual::constant(self.inclination_of(point));
         s.models.conditions.trace = Some(Trace::default());
         self.settle_prescribed(case, &mut s, !0, Noting::Muted);
         let mut plain = BTreeSet::new();

@@ -68,7 +68,7 @@ impl Solution<'_> {
                 surface: c.surface,
             };
             let held = t.hydraulics.held(&c.hydraulics, &at);
-            let running = sump.running(c.rest, held, &c.oils, &lifted);
+            let running = sump.running((c.rest, c.inclination), held, &c.oils, &lifted);
             let band = running.band();
             let nu = c.oils.get(sump.oil).map_or(0.0, |oil: &Oil| oil.nu);
             let [missing, flow] = running.missing(|i| lifted[i], band.films[1], nu, CAPTURE[1]);

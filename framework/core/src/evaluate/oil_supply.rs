@@ -1,7 +1,7 @@
 //! What the oil network supplies at a solved point, and what is too little.
 
 use super::Solution;
-use crate::hydraulics::{Element, End, Inputs, Law};
+use crate::hydraulics::{Element, End, Inputs, Law, Window};
 use crate::transmission::{PartInfo, PartKind};
 
 /// Pressure of the surroundings. \[Pa\]
@@ -86,13 +86,41 @@ pub struct PocketLevel<'a> {
     pub inflow: f64,
     /// Height of the oil above the lowest point of the raceway. \[m\]
     pub height: f64,
+    /// What its window takes of the oil that a gear throws; `None` without one.
+    pub window: Option<WindowFlow>,
     /// True if oil flows over its edge.
     pub overflows: bool,
     /// Radius of the raceway. \[m\]
     pub raceway: Option<f64>,
 }
 
+/// What a window takes at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WindowFlow {
+    /// Flow through it. \[m3/s\]
+    pub flow: f64,
+    /// Share of the oil that its gear throws.
+    pub share: f64,
+    /// Heights above the axis of its gear at which the first and the last oil meet the wall; zeros if it flies elsewhere. \[m\]
+    pub meets: [f64; 2],
+    /// Heights of its edges above that axis. \[m\]
+    pub edges: [f64; 2],
+}
+
 impl Solution<'_> {
+    /// What a window takes at the point.
+    fn window(&self, window: &Window) -> Option<WindowFlow> {
+        let (t, m) = (self.transmission, &self.scratch.models);
+        let c = &m.conditions;
+        let (taken, flow) = t.oils.sump.as_ref()?.through(window, (&c.speeds, c.surface), &m.lifted);
+        Some(WindowFlow {
+            flow,
+            share: taken.share,
+            meets: taken.meets,
+            edges: window.edges,
+        })
+    }
+
     /// The oil network at the point; `None` without one.
     pub fn oil_supply(&self) -> Option<OilSupply> {
         let (t, c) = (self.transmission, &self.scratch.models.conditions);
@@ -171,9 +199,11 @@ impl Solution<'_> {
             .pockets
             .iter()
             .zip(&work.pockets)
-            .map(move |(pocket, height)| PocketLevel {
+            .enumerate()
+            .map(move |(number, (pocket, height))| PocketLevel {
                 bearing: &pocket.path,
-                inflow: pocket.inflow(work),
+                inflow: pocket.inflow(number, work),
+                window: pocket.window.as_ref().and_then(|window| self.window(window)),
                 height: *height,
                 overflows: *height > pocket.edge_height,
                 raceway: raceway(&pocket.path),

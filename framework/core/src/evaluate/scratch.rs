@@ -3,13 +3,13 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
-use crate::attach::{Oil, State};
+use crate::attach::{Incline, Oil, State};
 use crate::flow::{Balance, Status, Work};
 use crate::hydraulics::{self, Supplies};
 use crate::loads::SupportLoad;
 use crate::loss::{Extent, Kept, Loss, Notebook, Seen, Trace, Undefined, nanowatts};
 use crate::real::{Mask as _, Points};
-use crate::sump::Lifted;
+use crate::sump::{Lifted, Travel};
 use crate::transmission::{Case, Sump, Transmission};
 
 /// What models read, and where they note.
@@ -20,6 +20,10 @@ pub(super) struct Conditions<R: Points> {
     pub oils: Vec<Oil<R>>,
     pub surface: R,
     pub rest: R,
+    /// Inclination of the housing in addition to that as built. \[rad\]
+    pub inclination: R,
+    /// How the housing travels, if a point inclines it.
+    pub travel: Option<Travel>,
     /// Flows and pressures of the oil network.
     pub hydraulics: hydraulics::Work<R>,
     pub loads: Vec<SupportLoad<R>>,
@@ -48,6 +52,10 @@ impl<R: Points> Conditions<R> {
             temperatures: &self.temperatures,
             surface: self.surface,
             rest: self.rest,
+            incline: self.travel.as_ref().map(|travel| Incline {
+                travel,
+                angle: self.inclination,
+            }),
             supplies: Supplies {
                 elements: &self.hydraulics.supplies,
                 pockets: &self.hydraulics.pockets,
@@ -212,6 +220,8 @@ impl<R: Points> Scratch<R> {
                     oils: vec![Oil::default(); transmission.oils.len()],
                     surface: R::ZERO,
                     rest: R::ZERO,
+                    inclination: R::ZERO,
+                    travel: None,
                     hydraulics: hydraulics::Work::new(&transmission.hydraulics),
                     loads: vec![SupportLoad::default(); supports],
                     live: R::mask(|_| true),

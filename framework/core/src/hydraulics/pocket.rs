@@ -2,7 +2,7 @@
 
 use super::network::{Fluid, Hydraulics, Inputs};
 use super::solve::Work;
-use super::{Edge, GRAVITY, Orifice};
+use super::{Edge, GRAVITY, Orifice, Window};
 use crate::real::{Mask as _, Points, Real};
 
 /// Maximum number of steps to the height of the oil in a pocket.
@@ -42,6 +42,8 @@ pub struct Pocket {
     pub inflow: f64,
     /// Rib that catches a part of what gears lift, as estimated.
     pub rib: Option<Rib>,
+    /// Window through which a gear throws oil.
+    pub window: Option<Window>,
     /// Number of its oil.
     pub oil: u16,
 }
@@ -65,13 +67,17 @@ impl Rib {
 }
 
 impl Pocket {
-    /// Oil that flows into it. \[m3/s\]
-    pub(crate) fn inflow<R: Points>(&self, work: &Work<R>) -> R {
+    /// Oil that flows into it, by its number. \[m3/s\]
+    pub(crate) fn inflow<R: Points>(&self, number: usize, work: &Work<R>) -> R {
         let fed = self.feeds.iter();
         let fed = fed.map(|(element, shared)| work.supplies[*element].flow / *shared);
         let fed = fed.fold(R::constant(self.inflow), |sum, flow| sum + flow.max(R::ZERO));
-        match self.rib {
+        let fed = match self.rib {
             Some(rib) => fed + work.wetting * rib.share(work.walls),
+            None => fed,
+        };
+        match self.window {
+            Some(_) => fed + work.thrown[number],
             None => fed,
         }
     }
@@ -139,14 +145,24 @@ impl Pocket {
 }
 
 impl Hydraulics {
-    /// True if a rib catches what gears lift.
+    /// True if a rib or a window catches what gears lift.
     pub(crate) fn catches(&self) -> bool {
-        self.pockets.iter().any(|pocket| pocket.rib.is_some())
+        let mut pockets = self.pockets.iter();
+        pockets.any(|pocket| pocket.rib.is_some() || pocket.window.is_some())
     }
 
-    /// Fills the pockets with what gears throw on walls of a horizontal length. \[m3/s, m\]
-    pub(crate) fn catch<R: Points>(&self, wetting: R, walls: f64, at: &Inputs<'_, R>, work: &mut Work<R>) {
+    /// Fills the pockets with what gears throw on walls of a horizontal length, and with what each window takes. \[m3/s, m, m3/s\]
+    pub(crate) fn catch<R: Points>(
+        &self,
+        (wetting, walls): (R, f64),
+        thrown: impl Fn(&Window) -> R,
+        at: &Inputs<'_, R>,
+        work: &mut Work<R>,
+    ) {
         (work.wetting, work.walls) = (wetting, walls);
+        for (own, pocket) in work.thrown.iter_mut().zip(&self.pockets) {
+            *own = pocket.window.as_ref().map_or(R::ZERO, &thrown);
+        }
         self.fill_pockets(at, work);
     }
 
@@ -176,7 +192,7 @@ impl Hydraulics {
     pub(super) fn fill_pockets<R: Points>(&self, at: &Inputs<'_, R>, work: &mut Work<R>) {
         for (i, pocket) in self.pockets.iter().enumerate() {
             let fluid = self.aerated(&at.oils[pocket.oil as usize]);
-            work.pockets[i] = pocket.height(pocket.inflow(work), &fluid);
+            work.pockets[i] = pocket.height(pocket.inflow(i, work), &fluid);
         }
     }
 
@@ -222,6 +238,7 @@ mod tests {
             feeds: Vec::new(),
             inflow: 0.0,
             rib: None,
+            window: None,
             oil: 0,
         };
         for (nu, heights) in [

@@ -37,6 +37,8 @@ pub(crate) struct Work<R> {
     /// Oil that gears throw on the walls, for ribs that catch it, and the horizontal length of the walls. \[m3/s and m\]
     pub wetting: R,
     pub walls: f64,
+    /// Oil that gears throw into each pocket through its window. \[m3/s\]
+    pub thrown: Vec<R>,
     /// Newton steps of the point that needed most.
     pub steps: usize,
     trial: Vec<R>,
@@ -63,6 +65,7 @@ impl<R: Points> Work<R> {
             pockets: vec![R::ZERO; network.pockets.len()],
             wetting: R::ZERO,
             walls: 1.0,
+            thrown: vec![R::ZERO; network.pockets.len()],
             steps: 0,
             trial: vec![R::ZERO; nodes],
             excess: vec![R::ZERO; nodes],
@@ -91,6 +94,9 @@ impl Work<Lane> {
             *own = Lane::constant(*common);
         }
         (self.wetting, self.walls) = (Lane::constant(common.wetting), common.walls);
+        for (own, common) in self.thrown.iter_mut().zip(&common.thrown) {
+            *own = Lane::constant(*common);
+        }
     }
 }
 
@@ -102,6 +108,7 @@ impl Hydraulics {
         }
         work.pressures.fill(R::ZERO);
         work.wetting = R::ZERO;
+        work.thrown.fill(R::ZERO);
         self.solve_from_pressures(at, work);
         self.fill_pockets(at, work);
     }

@@ -207,6 +207,10 @@ context! {
         towards_mesh: 0.0 in 0.0..=1.0 from "direction of rotation and the positions of the mates",
         /// The same for the second gear. [-]
         towards_mesh_2: 0.0 in 0.0..=1.0 from "direction of rotation and the positions of its mates",
+        /// Height above the lowest point of the tip circle of the highest mesh towards which that point moves; zero: `contact_height`. [mm]
+        mesh_height: 0.0 in 0.0..=5000.0 from "direction of rotation and the positions of the mates",
+        /// The same for the second gear. [mm]
+        mesh_height_2: 0.0 in 0.0..=5000.0 from "direction of rotation and the positions of its mates",
         /// Temperature of the oil. [degC]
         temperature: 80.0 in -40.0..=200.0 from "the oil of the gear or mesh: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil. [mm2/s]

@@ -195,7 +195,13 @@ impl<C: Component> Placed for PlacedAs<C> {
         C::lowest(&self.part)
     }
     fn reads_level(&self, highest: f64) -> bool {
-        let (Level::Sump { height, slope, orbit }, Some(lowest)) = (self.spot.level, C::lowest(&self.part)) else {
+        let (
+            Level::Sump {
+                height, slope, orbit, ..
+            },
+            Some(lowest),
+        ) = (self.spot.level, C::lowest(&self.part))
+        else {
             return false;
         };
         !self.model.off && (highest - height) * slope + orbit + lowest > 0.0

@@ -106,6 +106,8 @@ pub struct Profile {
     heights: Vec<f64>,
     /// Area at each height, and in the middle to the next one. \[m2\]
     areas: Vec<[f64; 2]>,
+    /// Integral of the area from each height to the next one. \[m3\]
+    pieces: Vec<f64>,
 }
 
 /// Heights that are closer than this are one. \[m\]
@@ -123,14 +125,21 @@ impl Profile {
     pub fn new(outline: &Outline, at: impl Fn([f64; 2]) -> f64) -> Self {
         let heights = sorted(outline.corners.iter().map(|corner| at(*corner)).collect());
         let below = |level: f64| area_below(outline, &at, level);
-        let areas = (0..heights.len())
+        let areas: Vec<[f64; 2]> = (0..heights.len())
             .map(|i| {
                 let own = heights[i];
                 let middle = 0.5 * (own + heights.get(i + 1).copied().unwrap_or(own));
                 [below(own), below(middle)]
             })
             .collect();
-        Self { heights, areas }
+        let mut profile = Self {
+            pieces: Vec::new(),
+            heights,
+            areas,
+        };
+        let pieces = profile.heights.windows(2).map(|ends| profile.piece(ends[0], ends[1]));
+        profile.pieces = pieces.collect();
+        profile
     }
 
     /// Heights of the corners, increasing. \[m\]
@@ -153,15 +162,33 @@ impl Profile {
         own + u * ((4.0 * middle - 3.0 * own - end) + u * 2.0 * (own + end - 2.0 * middle))
     }
 
+    /// Mean of the area over a range of heights: of a narrow one it has more digits than the integral. \[m2\]
+    pub fn mean(&self, [from, to]: [f64; 2]) -> f64 {
+        if to > from {
+            self.integral([from, to]) / (to - from)
+        } else {
+            self.area(from)
+        }
+    }
+
     /// Integral of the area over the height. \[m3\]
-    pub fn integral(&self, [from, to]: [f64; 2]) -> f64 {
+    fn integral(&self, [from, to]: [f64; 2]) -> f64 {
         let first = self.heights.partition_point(|h| *h <= from);
         let last = self.heights.partition_point(|h| *h < to);
-        let inner = self.heights[first..last.max(first)].iter().copied();
-        let ends = [from].into_iter().chain(inner.clone()).zip(inner.chain([to]));
-        // Simpson's rule is exact for a parabola.
-        ends.map(|(a, b)| (b - a) / 6.0 * (self.area(a) + 4.0 * self.area(0.5 * (a + b)) + self.area(b)))
-            .sum()
+        if last <= first {
+            return self.piece(from, to);
+        }
+        let whole = self.pieces[first..last - 1].iter().copied();
+        let ends = [
+            self.piece(from, self.heights[first]),
+            self.piece(self.heights[last - 1], to),
+        ];
+        [ends[0]].into_iter().chain(whole).chain([ends[1]]).sum()
+    }
+
+    /// The integral between two heights without a corner between them: Simpson's rule is exact for a parabola.
+    fn piece(&self, a: f64, b: f64) -> f64 {
+        (b - a) / 6.0 * (self.area(a) + 4.0 * self.area(0.5 * (a + b)) + self.area(b))
     }
 }
 

@@ -8,7 +8,7 @@
 //!   Velex 2008) all of it; the step between is a convention. A gear that has emptied its pool lifts less, also by convention.
 //! - *effective depth*: h_eff/h_0 of Shore and others, from the torque on one gear in a tight case up to 90 m/s.
 
-use super::space::Space;
+use super::AnySpace;
 use crate::immersion::Height;
 use crate::real::{LANES, Points, Real};
 
@@ -40,17 +40,23 @@ pub struct Lift {
 }
 
 impl Lift {
-    /// Immersion depth of the tip circle at a level. \[m\]
+    /// Immersion depth of the tip circle at a level, with the height and slope of its axis as built. \[m\]
     #[inline]
     pub fn tip_dip<R: Real>(&self, level: R) -> R {
-        self.height_at(level).dip(self.radii[0])
+        self.tip_dip_at(level, [self.height, self.slope].map(R::constant))
     }
 
-    /// Height of a level above the axis, across the shafts. \[m\]
+    /// The same with the height and slope of its axis at an inclination.
     #[inline]
-    fn height_at<R: Real>(&self, level: R) -> Height<R> {
+    pub fn tip_dip_at<R: Real>(&self, level: R, axis: [R; 2]) -> R {
+        self.height_at(level, axis).dip(self.radii[0])
+    }
+
+    /// Height of a level above an axis, across the shafts. \[m\]
+    #[inline]
+    fn height_at<R: Real>(&self, level: R, [height, slope]: [R; 2]) -> Height<R> {
         Height {
-            level: (level - self.height) * self.slope,
+            level: (level - height) * slope,
             orbit: self.orbit,
         }
     }
@@ -59,6 +65,13 @@ impl Lift {
     pub fn carried(&self) -> f64 {
         let [tip, _, root] = self.radii;
         (tip * tip - root * root) / (4.0 * tip)
+    }
+
+    /// What the gear throws off while the oil stands at a level (m), with a factor c: less from a pool that it has emptied. \[m3/s\]
+    #[inline]
+    pub fn thrown<R: Points>(&self, gear: &Lifted<R>, level: R, capture: f64) -> R {
+        let pool = (self.tip_dip_at(level, gear.axis) / (2.0 * self.carried())).at_most(1.0);
+        gear.flow(capture) * pool
     }
 
     /// What the gear lifts by its churning power (W) at its speed (rad/s) in oil of a density (kg/m3), with c = 1.
@@ -75,6 +88,7 @@ impl Lift {
             most: thrown * fast * self.width * self.carried(),
             rim: fast,
             omega,
+            axis: [self.height, self.slope].map(R::constant),
         }
     }
 }
@@ -90,6 +104,8 @@ pub struct Lifted<R = f64> {
     pub rim: R,
     /// Magnitude of the speed. \[rad/s\]
     pub omega: R,
+    /// Height of its axis (m), and depth across the shafts per height, at the inclination of the point.
+    pub axis: [R; 2],
 }
 
 impl<R: Points> Lifted<R> {
@@ -105,6 +121,7 @@ impl<R: Points> Lifted<R> {
             most: self.most.at_point(point),
             rim: self.rim.at_point(point),
             omega: self.omega.at_point(point),
+            axis: self.axis.map(|own| own.at_point(point)),
         }
     }
 }
@@ -175,9 +192,11 @@ impl<R: Real> Band<R> {
 }
 
 /// A sump whose gears lift oil, at one point.
-pub struct Running<'a, R> {
-    /// The oil space.
-    pub space: &'a Space,
+pub struct Running<'a, R, S> {
+    /// The oil space at each point.
+    pub space: S,
+    /// Volume of the space without the solids in it. \[m3\]
+    pub inside: f64,
     /// Its walls.
     pub walls: &'a Walls,
     /// The gears in it.
@@ -204,15 +223,14 @@ const ENOUGH: f64 = 1e-14;
 /// Half the step of the differences for the slope of the balance. \[m\]
 const STEP: f64 = 1e-6;
 
-impl<R: Points> Running<'_, R> {
+impl<'s, R: Points, S: Fn(usize) -> AnySpace<'s>> Running<'_, R, S> {
     /// Oil that is missing from the sump at a level, and the lifted flow, with a factor c. \[m3 and m3/s\]
     #[inline]
     pub fn missing<T: Points>(&self, lifted: impl Fn(usize) -> Lifted<T>, level: T, nu: T, capture: f64) -> [T; 2] {
         let (mut flow, mut air) = (T::ZERO, T::ZERO);
         for (i, lift) in self.lifts.iter().enumerate() {
             let gear = lifted(i);
-            let pool = (lift.tip_dip(level) / (2.0 * lift.carried())).at_most(1.0);
-            let own = gear.flow(capture) * pool;
+            let own = lift.thrown(&gear, level, capture);
             flow += own;
             air += own * self.walls.flight / gear.rim;
         }
@@ -242,9 +260,10 @@ impl<R: Points> Running<'_, R> {
     fn root(&self, point: usize, capture: f64) -> [f64; 3] {
         let (stock, nu) = (self.stock.at_point(point), self.nu.at_point(point));
         let missing = |level: f64| self.missing(|i| self.lifted[i].at_point(point), level, nu, capture)[0];
-        let excess = |level: f64| self.space.volume(level)[0] + missing(level) - stock;
+        let space = (self.space)(point);
+        let excess = |level: f64| space.volume(level)[0] + missing(level) - stock;
         let rest = self.rest.at_point(point);
-        let (mut low, mut high) = (self.space.bottom(), rest);
+        let (mut low, mut high) = (space.bottom(), rest);
         let (mut at_low, mut at_high) = (excess(low), excess(high));
         let mut level = rest;
         if missing(rest) > 0.0 && at_low < 0.0 && at_high > 0.0 {
@@ -275,21 +294,21 @@ impl<R: Points> Running<'_, R> {
         }
         let slope = (excess(level + STEP) - excess(level - STEP)) / (2.0 * STEP);
         let slope = if slope > 0.0 { slope } else { 1.0 };
-        [level, self.space.volume(level)[0], slope]
+        [level, space.volume(level)[0], slope]
     }
 
     /// The level by the effective depth, of the gear that lowers it most. \[m\]
     pub fn effective_level(&self) -> R {
-        let fill = self.stock * (1.0 / self.space.inside());
+        let fill = self.stock * (1.0 / self.inside);
         let mut lowest = self.rest;
         for (lift, gear) in self.lifts.iter().zip(self.lifted) {
             if lift.orbit > 0.0 {
                 continue;
             }
             let radius = lift.radii[1];
-            let depth = (lift.height_at(self.rest).level + radius).at_least(0.0);
+            let depth = (lift.height_at(self.rest, gear.axis).level + radius).at_least(0.0);
             let share = effective_share(fill, gear.omega, radius, self.nu);
-            let level = self.rest - depth * (R::constant(1.0) - share) / lift.slope;
+            let level = self.rest - depth * (R::constant(1.0) - share) / gear.axis[1];
             lowest = Real::min(lowest, level);
         }
         lowest
@@ -301,7 +320,7 @@ impl<R: Points> Running<'_, R> {
         gears.fold(R::ZERO, |fastest, (lift, gear)| {
             let rim = gear.omega * lift.radii[0];
             R::select(
-                lift.tip_dip(self.rest).is_above(R::ZERO),
+                lift.tip_dip_at(self.rest, gear.axis).is_above(R::ZERO),
                 Real::max(fastest, rim),
                 fastest,
             )

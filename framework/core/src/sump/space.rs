@@ -45,7 +45,7 @@ impl Space {
                     return section.length() * profile.area(level);
                 }
                 let [from, to] = section.range.map(|x| level - up[0] * x);
-                profile.integral([from.min(to), from.max(to)]) / up[0].abs()
+                section.length() * profile.mean([from.min(to), from.max(to)])
             };
             sections.iter().zip(&profiles).map(of).sum()
         };
@@ -124,29 +124,33 @@ impl Space {
 
     /// The level of a volume of oil; the top for more than fits. \[m\]
     pub fn level(&self, volume: f64) -> f64 {
-        let (mut low, mut high) = (self.bottom(), self.top());
-        if volume >= self.full() {
-            return high;
-        }
-        let mut level = 0.5 * (low + high);
-        for _ in 0..STEPS {
-            let [below, area] = self.volume(level);
-            if below < volume {
-                low = level;
-            } else {
-                high = level;
-            }
-            let next = level - (below - volume) / area;
-            if (next - level).abs() <= ROUNDING {
-                break;
-            }
-            // Half the bracket where Newton's step would leave it, as at the jump of the surface at a horizontal edge.
-            level = if next > low && next < high {
-                next
-            } else {
-                0.5 * (low + high)
-            };
-        }
-        level
+        level(volume, [self.bottom(), self.top()], |level| self.volume(level))
     }
+}
+
+/// The level of a volume between two ends, by the volume below a level and the area of its surface. \[m3, m\]
+pub(super) fn level(volume: f64, [mut low, mut high]: [f64; 2], of: impl Fn(f64) -> [f64; 2]) -> f64 {
+    if volume >= of(high)[0] {
+        return high;
+    }
+    let mut level = 0.5 * (low + high);
+    for _ in 0..STEPS {
+        let [below, area] = of(level);
+        if below < volume {
+            low = level;
+        } else {
+            high = level;
+        }
+        let next = level - (below - volume) / area;
+        if (next - level).abs() <= ROUNDING {
+            break;
+        }
+        // Half the bracket where Newton's step would leave it, as at the jump of the surface at a horizontal edge.
+        level = if next > low && next < high {
+            next
+        } else {
+            0.5 * (low + high)
+        };
+    }
+    level
 }

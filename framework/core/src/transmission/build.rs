@@ -407,6 +407,7 @@ impl Models {
             parts: &self.parts,
             components: &self.components,
             pockets: &self.pockets,
+            gears: &frame.gears,
         };
         let built = oil_network::hydraulics(&around, oils, found, warnings);
         classify(found, codes::OIL_NETWORK);
@@ -480,7 +481,14 @@ impl Models {
         };
         models.drags = drags.built();
         classify(found, codes::DRAG);
-        let highest = oils.highest_at_rest();
+        if entry.housing.travel.is_some() {
+            found.extend(no_travel(entry, oils));
+        }
+        let highest = if entry.housing.travel.is_some() {
+            f64::INFINITY
+        } else {
+            oils.highest_at_rest()
+        };
         let reads = models
             .components
             .iter()
@@ -490,7 +498,7 @@ impl Models {
         let catches = models
             .pockets
             .iter()
-            .any(|pocket| pocket.entry.rib.is_some_and(|rib| rib.wetting.is_none()));
+            .any(|pocket| pocket.entry.window.is_some() || pocket.entry.rib.is_some_and(|rib| rib.wetting.is_none()));
         if let (Some(inside), Some(rest)) = (oils.inside.clone(), oils.rest())
             && let Some(oil) = oils.oil("housing.oil", &Common::default())
         {
@@ -1074,6 +1082,31 @@ fn stiffnesses(supports: &[SeatedSupport], designs: &[Design]) -> Vec<(usize, f6
         },
     )
     .collect()
+}
+
+/// What prevents a cycle from inclining the oil.
+fn no_travel(entry: &GearboxEntry, oils: &OilNumbers<'_>) -> Option<Diagnostic> {
+    let (message, help) = match &entry.housing.oil {
+        None => (
+            "the housing has no oil that a cycle could incline",
+            "state `housing.oil`, or delete `travel`",
+        ),
+        Some(oil) if oil.dry_sump => ("a dry sump has no level that a cycle could incline", "delete `travel`"),
+        Some(_) if oils.inside.is_none() => (
+            "the level at an inclination follows from the volume, and the oil space is not known",
+            "state `housing.inside.sections` from the drawing, or delete `travel`",
+        ),
+        Some(_) if oils.rest().is_none() => (
+            "the level at an inclination follows from that at rest, which is not known",
+            "state `volume` or `level` of the oil, or delete `travel`",
+        ),
+        Some(_) => return None,
+    };
+    Some(
+        Diagnostic::error("housing.travel", message)
+            .code(codes::TRAVEL)
+            .help(help),
+    )
 }
 
 /// Ribs that shall catch the oil that gears lift, where it is not known how much that is.

@@ -21,9 +21,8 @@ pub(crate) struct DragSeat {
     pub radii: [[f64; 2]; 2],
     /// Oil height at each gear.
     pub levels: [Level; 2],
-    /// Vectors from each gear's axis to its mates, y components: a gear's lowest point moves towards a mate if speed times
-    /// component is positive.
-    pub mates: [Vec<f64>; 2],
+    /// Mates of each gear: its lowest point moves towards a mate if speed times y is positive.
+    pub mates: [Vec<Mate>; 2],
     /// Number of equal copies.
     pub count: f64,
 }
@@ -31,30 +30,51 @@ pub(crate) struct DragSeat {
 /// Numbers of the gears of which a model covers a cause of loss, its path, and these causes.
 pub(crate) type Covered = (Vec<usize>, String, Covers);
 
-/// Directions to a gear's mates, as y components of the unit vectors.
-pub fn mates(gear: usize, meshes: &[MeshSeat]) -> Vec<f64> {
+/// A mate of a gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mate {
+    /// y component of the unit vector to it.
+    pub y: f64,
+    /// Height of the pitch point above the lowest point of the gear's tip circle. \[m\]
+    pub height: f64,
+}
+
+/// The mates of a gear with axes fixed in the housing.
+pub fn mates(gear: usize, meshes: &[MeshSeat]) -> Vec<Mate> {
     meshes
         .iter()
         .filter(|m| m.carrier.is_none())
-        .filter_map(|m| Some((m, m.cylindrical()?.direction)))
-        .filter_map(|(m, direction)| match m.gears {
-            [a, _] if a == gear => Some(direction[0]),
-            [_, b] if b == gear && !m.internal() => Some(-direction[0]),
-            _ => None,
+        .filter_map(|m| {
+            let CylindricalTeeth { direction, .. } = m.cylindrical()?;
+            match m.gears {
+                [a, _] if a == gear => Some((m, 0, direction[0])),
+                [_, b] if b == gear && !m.internal() => Some((m, 1, -direction[0])),
+                _ => None,
+            }
+        })
+        .filter_map(|(m, side, y)| {
+            let height = contact_height(m, side)?;
+            Some(Mate { y, height })
         })
         .collect()
 }
 
-/// The body of a gear in a mesh of cylindrical gears; `None` of other ones.
-pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> Option<GearBody> {
+/// Height of the pitch point of a mesh above the lowest point of the tip circle of one of its gears. \[m\]
+fn contact_height(mesh: &MeshSeat, side: usize) -> Option<f64> {
     let CylindricalTeeth { pair, direction, .. } = mesh.cylindrical()?;
-    let side = usize::from(mesh.gears[0] != index);
     // The pitch point is at the working radius towards the mate.
     let upwards = if side == 0 {
         direction[1]
     } else {
         -pair.sign() * direction[1]
     };
+    Some((pair.working_radius[side] * upwards + 0.5 * pair.tip_diameter[side]).max(0.0))
+}
+
+/// The body of a gear in a mesh of cylindrical gears; `None` of other ones.
+pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> Option<GearBody> {
+    let CylindricalTeeth { pair, .. } = mesh.cylindrical()?;
+    let side = usize::from(mesh.gears[0] != index);
     Some(GearBody {
         z: gear.z,
         normal_module: pair.normal_module,
@@ -66,7 +86,7 @@ pub fn body(gear: &GearSeat, index: usize, mesh: &MeshSeat) -> Option<GearBody> 
         working_diameter: 2.0 * pair.working_radius[side],
         tip_diameter: pair.tip_diameter[side],
         root_diameter: pair.root_diameter[side],
-        contact_height: (pair.working_radius[side] * upwards + 0.5 * pair.tip_diameter[side]).max(0.0),
+        contact_height: contact_height(mesh, side)?,
     })
 }
 

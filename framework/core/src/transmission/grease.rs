@@ -130,7 +130,9 @@ fn of_bearing(id: &str, value: &Value, part: &BearingPart, entry: &GearboxEntry,
 /// By how much the oil of the housing reaches over the lowest place at a radius around an axis, if it has a level. \[m\]
 fn depth(oils: &OilNumbers<'_>, member: usize, at: f64, radius: f64) -> Option<f64> {
     match oils.level(Some(member as u16), at) {
-        Level::Sump { height, slope, orbit } => Some((oils.highest()? - height) * slope + orbit + radius),
+        Level::Sump {
+            height, slope, orbit, ..
+        } => Some((oils.highest()? - height) * slope + orbit + radius),
         Level::Dry | Level::Own(_) => None,
     }
 }

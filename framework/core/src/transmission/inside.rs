@@ -7,7 +7,7 @@ use crate::codes;
 use crate::description::{GearboxEntry, InsideEntry, InsideSection};
 use crate::document::Diagnostic;
 use crate::registry::Memory;
-use crate::sump::{CHORDS, Crowded, Disc, Outline, Space, Walls, hull};
+use crate::sump::{CHORDS, Crowded, Disc, Inclinations, Outline, Space, Travel, Walls, hull};
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -18,6 +18,8 @@ const GAP: f64 = 0.01;
 #[derive(Debug, Clone)]
 pub(crate) struct Inside {
     pub space: Arc<Space>,
+    /// The spaces at the inclinations of a housing that travels.
+    pub inclinations: Option<Arc<Inclinations>>,
     /// True if its sections are stated; otherwise it is the hull of the gears.
     pub drawn: bool,
     pub sections: Vec<Outline>,
@@ -58,11 +60,14 @@ impl Inside {
         } else {
             vec![of_gears(entry, &stated, gears, axes, memory)?]
         };
-        let height = if datum[0] == 0.0 {
-            up[1] * datum[1] + up[2] * datum[2]
-        } else {
-            up[0] * datum[0] + up[1] * datum[1] + up[2] * datum[2]
+        let height_of = |up: [f64; 3]| {
+            if datum[0] == 0.0 {
+                up[1] * datum[1] + up[2] * datum[2]
+            } else {
+                up[0] * datum[0] + up[1] * datum[1] + up[2] * datum[2]
+            }
         };
+        let height = height_of(up);
         let input = Input {
             discs: discs((entry, document), members, gears, axes, &sections, (up, height)),
             sections: sections.clone(),
@@ -72,9 +77,48 @@ impl Inside {
         let space = memory.repeat("oil space", input, |input| {
             Space::new(&input.sections, input.discs.clone(), input.up, input.datum).map(Arc::new)
         });
+        let travel = entry
+            .housing
+            .travel
+            .and_then(|travel| Travel::new(up, travel.direction()));
+        let inclinations = travel.filter(|_| space.is_ok()).and_then(|travel| {
+            let at: Vec<(Vec<Disc>, f64)> = travel
+                .ups()
+                .map(|(_, up)| {
+                    let height = height_of(up);
+                    let solids = discs((entry, document), members, gears, axes, &sections, (up, height));
+                    (solids, height)
+                })
+                .collect();
+            let mean = |ends: [f64; 2], origin: f64| f64::midpoint(ends[0], ends[1]) - origin;
+            let middle = [
+                mean(widest(sections.iter().map(|section| section.range)), datum[0]),
+                mean(widest(sections.iter().map(Outline::extent)), datum[1]),
+            ];
+            let input = (sections.clone(), travel, at, middle);
+            let spaces = memory.repeat("inclined oil space", input, |(sections, travel, at, middle)| {
+                Inclinations::new(*travel, sections, at, *middle).map(Arc::new)
+            });
+            spaces
+                .map_err(|(degrees, Crowded(level))| {
+                    found.push(
+                        Diagnostic::error(
+                            "housing.travel",
+                            format!(
+                                "inclined by {degrees:.0} deg, gears and shafts reach out of the oil space {:.1} mm above the datum",
+                                level * 1e3
+                            ),
+                        )
+                        .code(codes::TRAVEL)
+                        .help("check `housing.inside` against the gears, or delete `travel`: cycles then do not incline the oil"),
+                    );
+                })
+                .ok()
+        });
         match space {
             Ok(space) => Some(Self {
                 space,
+                inclinations,
                 drawn,
                 sections,
                 walls: [stated.wall_area, stated.wall_length],
@@ -124,6 +168,13 @@ impl Inside {
             "in the hull of the tip circles, an assumed inside of the housing"
         }
     }
+}
+
+/// The range of all ranges.
+fn widest(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    ranges.fold([f64::INFINITY, f64::NEG_INFINITY], |all, own| {
+        [all[0].min(own[0]), all[1].max(own[1])]
+    })
 }
 
 /// The stated sections; `None` with errors.

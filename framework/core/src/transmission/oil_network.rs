@@ -3,12 +3,14 @@
 use serde_json::Value;
 
 use super::oils::OilNumbers;
+use super::seats::GearSeat;
 use super::{Component, PartInfo};
 use crate::attach::{Common, Places as _, SeatedPocket, dangling};
+use crate::codes;
 use crate::description::oil_network::{NozzleEntry, PipeEntry, PumpEntry, RotatingChannelEntry};
-use crate::description::{GearboxEntry, HoleEntry, OilNetworkEntry, PocketEntry};
+use crate::description::{GearboxEntry, HoleEntry, OilNetworkEntry, PocketEntry, WindowEntry};
 use crate::document::Diagnostic;
-use crate::hydraulics::{Chamber, Channel, Driver, Edge, Element, End, Hydraulics, Law, Orifice, Pocket, Relief};
+use crate::hydraulics::{Chamber, Channel, Driver, Edge, Element, End, Hydraulics, Law, Pocket, Relief, Window};
 
 const SUMP: &str = "sump";
 const HOUSING: &str = "housing";
@@ -35,6 +37,7 @@ pub(super) struct Around<'a> {
     pub parts: &'a [PartInfo],
     pub components: &'a [Component],
     pub pockets: &'a [SeatedPocket],
+    pub gears: &'a [GearSeat],
 }
 
 /// Builds the network and the pockets; faults become findings.
@@ -59,7 +62,7 @@ pub(super) fn hydraulics(
     built.pockets = around
         .pockets
         .iter()
-        .filter_map(|pocket| seated_pocket(pocket, &built, around, found, warnings))
+        .filter_map(|pocket| seated_pocket(pocket, &built, (around, oils), found, warnings))
         .collect();
     built
 }
@@ -164,7 +167,7 @@ impl Names<'_, '_> {
             let oil = self.oil(&format!("oil_network.chambers.{id}"), oils);
             built.chambers.push(Chamber {
                 name: id.clone(),
-                drain: orifice(&chamber.drain),
+                drain: chamber.drain.orifice(),
                 floor: chamber.floor,
                 height: chamber.height,
                 oil: oil.unwrap_or(0),
@@ -329,7 +332,7 @@ impl Names<'_, '_> {
             discharge: nozzle.discharge,
             count: nozzle.count,
         };
-        let law = Some(Law::Orifice(orifice(&hole)));
+        let law = Some(Law::Orifice(hole.orifice()));
         let ends = [SUMP, HOUSING];
         self.element(
             path,
@@ -359,16 +362,6 @@ impl Names<'_, '_> {
 }
 
 /// A hole with its discharge coefficient, which by default is that of a sharp edge for a short hole, else that of a drilled one.
-fn orifice(hole: &HoleEntry) -> Orifice {
-    let usual = if hole.length < hole.diameter { 0.61 } else { 0.8 };
-    Orifice {
-        diameter: hole.diameter,
-        length: hole.length,
-        discharge: hole.discharge.unwrap_or(usual),
-        count: f64::from(hole.count),
-    }
-}
-
 /// Checks that oil can leave every junction, and that something drives it.
 fn has_ways(network: &Hydraulics, found: &mut Vec<Diagnostic>, warnings: &mut Vec<Diagnostic>) {
     let count = network.junctions.len();
@@ -509,7 +502,7 @@ fn shaft_torques(
 fn seated_pocket(
     pocket: &SeatedPocket,
     network: &Hydraulics,
-    around: &Around<'_>,
+    (around, oils): (&Around<'_>, &OilNumbers<'_>),
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
 ) -> Option<Pocket> {
@@ -521,7 +514,8 @@ fn seated_pocket(
         edge_sharp,
         drain,
         rib,
-    } = pocket.entry;
+        window,
+    } = pocket.entry.clone();
     let path = format!("{}.pocket", pocket.path);
     let id = pocket.path.strip_prefix("bearings.").unwrap_or_default();
     if around.document["bearings"][id]["oil_height"].is_number() {
@@ -577,10 +571,20 @@ fn seated_pocket(
             .help("state `walls`, or remove `wetting` to have both from the oil space"),
         );
     }
-    if feeds.is_empty() && inflow == 0.0 && caught.is_none() {
+    let path_of_window = format!("{path}.window");
+    let window = match window.map(|window| seated_window(&window, around, oils)) {
+        Some(Ok(window)) => Some(window),
+        Some(Err((message, help))) => {
+            let error = Diagnostic::error(path_of_window, message).code(codes::WINDOW);
+            found.push(error.help(help));
+            None
+        }
+        None => None,
+    };
+    if feeds.is_empty() && inflow == 0.0 && caught.is_none() && pocket.entry.window.is_none() {
         warnings.push(
             Diagnostic::warning(path, "no oil flows into the pocket, so it stays empty").help(format!(
-                "add `feeds: [{}]` to a nozzle or pipe, or `catch` to the pocket",
+                "add `feeds: [{}]` to a nozzle or pipe, or `catch` or `window` to the pocket",
                 pocket.path
             )),
         );
@@ -589,10 +593,70 @@ fn seated_pocket(
         path: pocket.path.clone(),
         edge: edge_of,
         edge_height: edge,
-        drain: drain.as_ref().map(orifice),
+        drain: drain.as_ref().map(HoleEntry::orifice),
         feeds,
         inflow,
         rib: caught.map(|rib| rib.rib()),
+        window,
         oil: pocket.oil,
     })
+}
+
+/// A window beside the gear that throws oil through it.
+fn seated_window(
+    entry: &WindowEntry,
+    around: &Around<'_>,
+    oils: &OilNumbers<'_>,
+) -> Result<Window, (String, &'static str)> {
+    let gear = around.gears.iter().position(|gear| gear.id == entry.gear);
+    let Some(number) = gear else {
+        return Err((
+            format!("no gear is called `{}`", entry.gear),
+            "name the gear that throws the oil",
+        ));
+    };
+    let gear = &around.gears[number];
+    if entry.bottom >= entry.top || entry.from >= entry.to {
+        return Err((
+            "the window has no height or no length".to_owned(),
+            "state `bottom` below `top` and `from` before `to`",
+        ));
+    }
+    let Some(axis) = oils.stationary_axis_along_x(gear.member) else {
+        return Err((
+            format!("`{}` has no stationary axis along x", gear.id),
+            "name another gear; for this one no law is known",
+        ));
+    };
+    let Some(lift) = oils.sump.as_ref().and_then(|sump| sump.lift_of(number)) else {
+        return Err((
+            format!(
+                "how much oil `{}` lifts is not known: it has no churning law in a known oil space",
+                gear.id
+            ),
+            "state an oil level with `housing.inside` and a churning law in `models.gear_drag`, or name another gear",
+        ));
+    };
+    let [x, y, z] = axis.point(gear.at);
+    let [_, tip, root] = gear.diameters;
+    let window = Window {
+        lift,
+        member: gear.member,
+        wall: entry.y - y,
+        edges: [entry.bottom - z, entry.top - z],
+        ends: [entry.from - x, entry.to - x],
+        gear: [0.5 * tip, 0.5 * (tip - root), gear.facewidth],
+    };
+    if window.wall.abs() <= 0.5 * tip {
+        return Err((
+            format!(
+                "the wall is {:.1} mm from the axis of `{}`, whose tip circle has a radius of {:.1} mm",
+                1e3 * window.wall.abs(),
+                gear.id,
+                500.0 * tip
+            ),
+            "state the y of a wall beside the gear",
+        ));
+    }
+    Ok(window)
 }

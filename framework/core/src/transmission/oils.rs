@@ -17,6 +17,7 @@ use crate::lubricant::Lubricant;
 use crate::mechanism::gear_mesh::MeshOil;
 use crate::real::{Points, Real};
 use crate::registry::Memory;
+use crate::sump::Travel;
 use crate::table::clamped;
 
 /// Least rise across an axis.
@@ -102,6 +103,11 @@ impl Oils {
                 levels,
             } => speeds[*member].lift(|speed| clamped(at, levels, speed.abs())),
         }
+    }
+
+    /// How the housing travels, if cycles incline it.
+    pub fn travel(&self) -> Option<&Travel> {
+        self.sump.as_ref()?.travel()
     }
 
     /// How the level while rotating is found.
@@ -352,6 +358,12 @@ impl<'a> OilNumbers<'a> {
         );
     }
 
+    /// The axis of a member, if it is stationary and along x.
+    pub fn stationary_axis_along_x(&self, member: usize) -> Option<Axis> {
+        let (axis, orbit) = self.axes[member]?;
+        (orbit == 0.0 && axis.is_along_x()).then_some(axis)
+    }
+
     /// True if an oil level is known.
     pub fn has_level(&self) -> bool {
         !matches!(self.at_rest, AtRest::Dry)
@@ -541,6 +553,7 @@ impl Places for OilNumbers<'_> {
             height: self.up[0] * x + self.up[1] * y + self.up[2] * z,
             slope: 1.0 / across,
             orbit,
+            axis: [[x, y, z], axis.direction()],
         }
     }
 }

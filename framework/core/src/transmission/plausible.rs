@@ -188,7 +188,9 @@ pub(crate) fn oil_level(
                 Level::Dry => f64::NEG_INFINITY,
                 Level::Own(level) => level,
                 // At the lowest point of an orbit.
-                Level::Sump { height, slope, orbit } => (surface - height) * slope + orbit,
+                Level::Sump {
+                    height, slope, orbit, ..
+                } => (surface - height) * slope + orbit,
             };
             // Outer radius: the root radius of a ring gear is close to its tip radius, and its lowest teeth are immersed first.
             let radius = 0.5 * gear.diameters[1].max(gear.diameters[2]);

@@ -349,6 +349,7 @@ impl Preloading<'_> {
                 temperatures: &[temperature],
                 surface: f64::NEG_INFINITY,
                 rest: f64::NEG_INFINITY,
+                incline: None,
                 supplies: Supplies {
                     elements: &[],
                     pockets: &pockets,

@@ -6,16 +6,19 @@ use super::inside::Inside;
 use super::seats::GearSeat;
 use super::{DragModel, Oils};
 use crate::attach::{Level, Oil, State};
+use crate::hydraulics::{Taken, Window};
 use crate::immersion::Height;
 use crate::loss::{Loss, Undefined};
 use crate::real::{Mask as _, Points};
-use crate::sump::{Lift, Lifted, Outline, Running, Space, Walls};
+use crate::sump::{AnySpace, CAPTURE, Inclinations, Lift, Lifted, Outline, Running, Space, Travel, Walls};
 use crate::transmission::Surface;
 
 /// The sump with the gears that lift oil.
 #[derive(Debug, Clone)]
 pub struct Sump {
     space: Arc<Space>,
+    /// The spaces of a housing that cycles incline.
+    inclinations: Option<Arc<Inclinations>>,
     walls: Walls,
     /// True if the inside is drawn; otherwise it is the hull of the gears.
     drawn: bool,
@@ -23,6 +26,9 @@ pub struct Sump {
     /// The upward direction, and the height of the datum along it. \[m\]
     up: ([f64; 3], f64),
     lifts: Vec<Lift>,
+    /// The axis and the number of the gear of each.
+    levels: Vec<Level>,
+    gears: Vec<usize>,
     lifters: Vec<Lifter>,
     /// Number of its oil.
     pub(crate) oil: usize,
@@ -51,6 +57,7 @@ impl Sump {
         drags: &[DragModel],
     ) -> Self {
         let mut lifts = Vec::new();
+        let (mut of_lifts, mut numbers) = (Vec::new(), Vec::new());
         let mut lifters = Vec::new();
         for (drag, model) in drags
             .iter()
@@ -71,15 +78,20 @@ impl Sump {
                     pair: seat.pair,
                 });
                 lifts.extend(found);
+                of_lifts.extend(own.iter().map(|gear| levels[*gear]));
+                numbers.extend_from_slice(own);
             }
         }
         Self {
             space: Arc::clone(&inside.space),
+            inclinations: inside.inclinations.clone(),
             walls: inside.walls(rest),
             drawn: inside.drawn,
             sections: inside.sections.clone(),
             up: inside.up,
             lifts,
+            levels: of_lifts,
+            gears: numbers,
             lifters,
             oil,
             read,
@@ -124,6 +136,20 @@ impl Sump {
         ends.map(|y| [y, (level + datum - up[0] * 0.5 * (from + to) - up[1] * y) / up[2]])
     }
 
+    /// Number of the lift of a gear, if it may lift oil.
+    pub(crate) fn lift_of(&self, gear: usize) -> Option<usize> {
+        self.gears.iter().position(|own| *own == gear)
+    }
+
+    /// What a window takes of the oil that its gear throws at a level (m) with a share of the band's factor, and that flow (m3/s).
+    pub(crate) fn through<R: Points>(&self, window: &Window, state: (&[R], R), lifted: &[Lifted<R>]) -> (Taken<R>, R) {
+        let (speeds, level) = state;
+        let (lift, gear) = (&self.lifts[window.lift], &lifted[window.lift]);
+        let dip = lift.tip_dip_at(level, gear.axis);
+        let taken = window.taken(speeds[window.member], dip);
+        (taken, taken.share * lift.thrown(gear, level, CAPTURE[1]))
+    }
+
     /// True if a gear may lift oil.
     pub(crate) fn has_lifts(&self) -> bool {
         !self.lifts.is_empty()
@@ -134,11 +160,48 @@ impl Sump {
         self.lifts.len()
     }
 
+    /// How the housing travels, if cycles incline it.
+    pub fn travel(&self) -> Option<&Travel> {
+        self.inclinations.as_deref().map(Inclinations::travel)
+    }
+
+    /// The space at an inclination; as built without one. \[rad\]
+    fn at(&self, inclination: f64) -> AnySpace<'_> {
+        match &self.inclinations {
+            Some(inclinations) if inclination != 0.0 => inclinations.space(inclination),
+            _ => (&*self.space).into(),
+        }
+    }
+
+    /// The level at an inclination of the oil below a level as built. \[rad, m\]
+    pub(crate) fn inclined<R: Points>(&self, level: R, inclination: R) -> R {
+        let each = |point: usize| {
+            let (level, inclination) = (level.at_point(point), inclination.at_point(point));
+            if inclination == 0.0 || !level.is_finite() {
+                return [level, level, 1.0];
+            }
+            let [volume, area] = self.space.volume(level);
+            let space = self.at(inclination);
+            let found = space.level(volume);
+            let of_found = space.volume(found)[1];
+            let slope = if of_found > 0.0 { area / of_found } else { 0.0 };
+            [found, level, slope]
+        };
+        let [found, known, slope] = [0, 1, 2].map(|i| R::each(|point| each(point)[i]));
+        let change = R::select(level.is_equal(known), R::ZERO, level - known);
+        found + change * slope
+    }
+
     /// The level of a volume. \[m3, m\]
     pub(crate) fn level<R: Points>(&self, volume: R) -> R {
-        let level = R::each(|point| self.space.level(volume.at_point(point)));
-        let below = R::each(|point| self.space.volume(level.at_point(point))[0]);
-        let area = R::each(|point| self.space.volume(level.at_point(point))[1].max(0.0));
+        self.level_in(|_| (&*self.space).into(), volume)
+    }
+
+    /// The level of a volume in a space of each point. \[m3, m\]
+    fn level_in<'a, R: Points>(&'a self, space: impl Fn(usize) -> AnySpace<'a>, volume: R) -> R {
+        let level = R::each(|point| space(point).level(volume.at_point(point)));
+        let below = R::each(|point| space(point).volume(level.at_point(point))[0]);
+        let area = R::each(|point| space(point).volume(level.at_point(point))[1].max(0.0));
         // One step of Newton's gives derivatives, where numbers have them.
         let full = area.is_zero();
         R::select(
@@ -164,29 +227,35 @@ impl Sump {
             };
             let rho = state.oils[model.oil as usize].rho;
             let gears = lifter.first..lifter.first + if lifter.pair { 2 } else { 1 };
+            let axis = |i: usize| match state.incline {
+                Some(incline) => self.levels[i].axis(incline),
+                None => [self.lifts[i].height, self.lifts[i].slope].map(R::constant),
+            };
             let depths = gears
                 .clone()
-                .map(|i| self.lifts[i].tip_dip(state.rest))
+                .map(|i| self.lifts[i].tip_dip_at(state.rest, axis(i)))
                 .fold(R::ZERO, |sum, depth| sum + depth);
             let dry = depths.is_zero();
             for (i, member) in gears.zip(lifter.members) {
                 // A pair shares its loss by immersion.
-                let share = self.lifts[i].tip_dip(state.rest) / R::select(dry, R::constant(1.0), depths);
+                let share = self.lifts[i].tip_dip_at(state.rest, axis(i)) / R::select(dry, R::constant(1.0), depths);
                 let own = self.lifts[i].lifted(power * share, state.speeds[member], rho);
-                lifted[i] = own;
+                lifted[i] = Lifted { axis: axis(i), ..own };
             }
         }
     }
 
-    /// The balance of the sump at a point; the level at rest determines how much oil there is, of which chambers hold a part (m3).
+    /// The balance of the sump at a point with an inclination (rad); the level at rest determines how much oil there is, of which chambers
+    /// hold a part (m3).
     pub(crate) fn running<'a, R: Points>(
         &'a self,
-        rest: R,
+        (rest, inclination): (R, R),
         held: R,
         oils: &[Oil<R>],
         lifted: &'a [Lifted<R>],
-    ) -> Running<'a, R> {
-        let volume = |point: usize| self.space.volume(rest.at_point(point));
+    ) -> Running<'a, R, impl Fn(usize) -> AnySpace<'a>> {
+        let space = move |point: usize| self.at(inclination.at_point(point));
+        let volume = |point: usize| space(point).volume(rest.at_point(point));
         let known = R::each(|point| rest.at_point(point));
         // The volume over the level at rest, with derivatives.
         let stock = R::each(|point| volume(point)[0]) + (rest - known) * R::each(|point| volume(point)[1]);
@@ -195,10 +264,11 @@ impl Sump {
         let lowered = if none.all() {
             rest
         } else {
-            R::select(none, rest, self.level(left))
+            R::select(none, rest, self.level_in(space, left))
         };
         Running {
-            space: &self.space,
+            space,
+            inside: self.space.inside(),
             walls: &self.walls,
             lifts: &self.lifts,
             lifted,
@@ -222,7 +292,10 @@ impl Oils {
 
 /// The lift of a gear in the sump; `None` for ring gears and gears in oil of their own.
 fn lift(gear: &GearSeat, level: Level, count: f64) -> Option<Lift> {
-    let Level::Sump { height, slope, orbit } = level else {
+    let Level::Sump {
+        height, slope, orbit, ..
+    } = level
+    else {
         return None;
     };
     let [reference, tip, root] = gear.diameters.map(|diameter| 0.5 * diameter);
@@ -239,6 +312,6 @@ impl<R: Points> State<'_, R> {
     /// Oil height at rest above an axis, which churning laws use.
     #[inline(always)]
     pub(crate) fn level_at_rest(&self, level: Level) -> Height<R> {
-        level.under(self.rest)
+        level.under(self.rest, self.incline)
     }
 }

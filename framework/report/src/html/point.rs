@@ -75,6 +75,7 @@ pub fn page(runner: &Planner<'_>, sets: &[Arc<Built<'_>>], assumed: &[AssumedEnt
             torques: &own_torques[..case.torque_ports.len().min(1)],
             flow: points.flow,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         };
         let mut scratch = t.scratch(&case);
         let warm = OilTemperature::find(points.oil, t, &case, &point, &mut scratch);

@@ -1,6 +1,6 @@
 //! The oil network at a point as text and as a record.
 
-use gearloss_framework::evaluate::{OilSupply, Solution};
+use gearloss_framework::evaluate::{OilSupply, Solution, WindowFlow};
 use gearloss_studies::analyses::numbers::tidy;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -87,8 +87,27 @@ pub(super) fn oil_blocks(solution: &Solution<'_>) -> Blocks {
             figures(pocket.inflow * L_MIN, 4),
             fixed(pocket.height * 1e3, 2)
         ));
+        if let Some(window) = pocket.window {
+            blocks.text(&format!("  its window: {}\n", window_words(&window)));
+        }
     }
     blocks
+}
+
+/// What a window takes, and where the oil meets its wall.
+fn window_words(window: &WindowFlow) -> String {
+    let mm = |x: f64| fixed(x * 1e3, 1);
+    let [low, high] = window.meets;
+    if low == 0.0 && high == 0.0 {
+        return "no oil of its gear meets the wall".to_owned();
+    }
+    format!(
+        "{} l/min, {} % of what its gear throws, which meets the wall {} to {} mm above the axis",
+        figures(window.flow * L_MIN, 4),
+        fixed(100.0 * window.share, 1),
+        mm(low),
+        mm(high)
+    )
 }
 
 /// The oil network at a point.
@@ -165,6 +184,21 @@ struct PocketRecord {
     height_mm: Option<f64>,
     /// True if oil flows over its edge.
     overflows: bool,
+    /// What its window takes of the oil that a gear throws; absent without a window.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    window: Option<WindowRecord>,
+}
+
+/// A window of a pocket.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Window")]
+struct WindowRecord {
+    /// Flow through it. [l/min]
+    flow_l_min: f64,
+    /// Share of the oil that its gear throws. [-]
+    share: f64,
+    /// Heights above the axis of its gear at which the first and the last oil meet the wall; zeros if none does. [mm]
+    meets_mm: [f64; 2],
 }
 
 /// What is too little or too much.
@@ -189,6 +223,11 @@ impl OilRecord {
                 inflow_l_min: known(pocket.inflow * L_MIN),
                 height_mm: known(pocket.height * 1e3),
                 overflows: pocket.overflows,
+                window: pocket.window.map(|window| WindowRecord {
+                    flow_l_min: tidy(window.flow * L_MIN),
+                    share: tidy(window.share),
+                    meets_mm: window.meets.map(|height| tidy(height * 1e3)),
+                }),
             })
             .collect();
         if supply.is_none() && pockets.is_empty() {

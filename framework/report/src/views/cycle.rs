@@ -100,6 +100,11 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
             significant(1e-3 * energy.brakes_j)
         ));
     }
+    if let Some([least, greatest]) = duty.inclination_deg {
+        page.line(format!(
+            "  the oil is inclined by grade and acceleration from {least:.1} to {greatest:.1} deg"
+        ));
+    }
     if let Some(heat) = &duty.heat {
         heat_text(duty, heat, page);
     }

@@ -258,6 +258,7 @@ impl Analysis for BalanceEntry {
                 torques: &torques[..case.torque_ports.len()],
                 flow: run.points.flow,
                 tolerance: Tolerance::default(),
+                inclination: 0.0,
             };
             let mut scratch = t.scratch(&case);
             let found = t.equilibrium(&case, &point, &mut scratch);

@@ -379,6 +379,7 @@ fn losses(
             torques: &torques[..case.torque_ports.len()],
             flow: given.flow,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         };
         let warm = given.oil.find(transmission, case, &point, &mut scratch);
         let solution = transmission.evaluate(case, &point, warm.temperatures(), &mut scratch);

@@ -225,6 +225,7 @@ impl ContactPathEntry {
             torques: &torques[..case.torque_ports.len()],
             flow: given.flow,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         };
         let mut scratch = t.scratch(&case);
         let warm = given.oil.find(t, &case, &point, &mut scratch);

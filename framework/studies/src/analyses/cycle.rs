@@ -387,6 +387,14 @@ impl Outcome for CycleOutcome {
             .number("vehicle_speed_m_s", "m/s", "Speed of the vehicle", |(_, at)| {
                 at.vehicle_speed_m_s
             })
+            .each(self.inclines().then_some(()), |table, ()| {
+                table.number(
+                    "inclination_deg",
+                    "deg",
+                    "Inclination of the oil by grade and acceleration",
+                    |(_, at)| at.inclination_deg,
+                )
+            })
             .text("status", "State of the transmission", |(_, at)| at.status.name())
             .number("input_w", "W", "Input power", |(_, at)| at.input_w)
             .number("output_w", "W", "Output power", |(_, at)| at.output_w)
@@ -431,6 +439,11 @@ impl Outcome for CycleOutcome {
 }
 
 impl CycleOutcome {
+    /// True if a cycle inclines the oil.
+    fn inclines(&self) -> bool {
+        self.cycles.iter().any(|duty| duty.inclination_deg.is_some())
+    }
+
     /// Nodes of all cycles, in the order of the first.
     fn nodes(&self) -> Vec<&str> {
         let all = self.cycles.iter().flat_map(|duty| &duty.nodes);

@@ -267,6 +267,7 @@ impl Search<'_> {
             torques: &torque[..count],
             flow: self.run.points.flow,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         };
         let set = |x: f64, speeds: &mut [f64], torques: &mut [f64]| {
             let (speed, torque) = self.given(fixed, x);

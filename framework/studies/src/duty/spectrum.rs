@@ -174,6 +174,7 @@ pub(super) fn intervals(loads: &[SpectrumPoint], duration: f64) -> Result<Vec<In
             }
         };
         intervals.push(Interval {
+            inclination: 0.0,
             start,
             duration: time,
             demand,

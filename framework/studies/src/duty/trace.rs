@@ -2,10 +2,11 @@
 
 mod distance;
 
-use super::{Demand, FileCycleEntry, Given, Interval, Vehicle};
+use super::{Demand, FileCycleEntry, Given, Interval, STANDARD_GRAVITY, Vehicle};
 use crate::measured::{MeasuredFault, fault};
 use gearloss_document::data::missing::CELL_HELP;
 use gearloss_document::data::sheet::{Assigned, Sheet, Wanted, limited_faults};
+use gearloss_framework::sump::apparent_grade;
 
 /// One row of a series; SI.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -172,16 +173,19 @@ impl Trace {
             let [from, to] = pair else { continue };
             let duration = to.time - from.time;
             let given = mean_given(&from.given, &to.given);
+            let grade = f64::midpoint(from.grade, to.grade);
+            let speeds = [from, to].map(|sample| sample.given.vehicle_speed);
+            let acceleration = match speeds {
+                [Some(before), Some(after)] => (after - before) / duration,
+                _ => 0.0,
+            };
+            let gravity = vehicle.map_or(STANDARD_GRAVITY, |vehicle| vehicle.gravity);
             let demand = match (from.port.zip(to.port), given.vehicle_speed, vehicle) {
                 (Some((a, b)), ..) => match (f64::midpoint(a.0, b.0), f64::midpoint(a.1, b.1)) {
                     (0.0, 0.0) => Demand::Rest,
                     (torque, speed) => Demand::Port { torque, speed },
                 },
-                (None, Some(speed), Some(vehicle)) => {
-                    let speeds = [&from.given, &to.given].map(|g| g.vehicle_speed.unwrap_or(speed));
-                    let acceleration = (speeds[1] - speeds[0]) / duration;
-                    vehicle.demand(speed, acceleration, f64::midpoint(from.grade, to.grade))
-                }
+                (None, Some(speed), Some(vehicle)) => vehicle.demand(speed, acceleration, grade),
                 _ => {
                     return Err(fault(
                         "the cycle has a vehicle speed but no torque",
@@ -193,6 +197,7 @@ impl Trace {
                 start: from.time,
                 duration,
                 demand,
+                inclination: apparent_grade(grade, acceleration, gravity),
                 given,
             });
         }

@@ -9,6 +9,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{BatchScratch, Noting, Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::loss::Extent;
+use gearloss_framework::sump::STEEPEST;
 use gearloss_framework::thermal::Unbalanced;
 use gearloss_framework::thermal::network::{Heats, March, Moment, Passed, Scheme, Stage, StepSize, Surroundings};
 use gearloss_framework::transmission::{Case, Transmission, WHEELS};
@@ -185,6 +186,25 @@ impl<'a> Cases<'a> {
 /// If a gear or a port is unknown or invalid.
 pub fn can_drive(transmission: &Transmission, ride: &Ride<'_>) -> Result<(), Vec<Diagnostic>> {
     let mut cases = Cases::new(transmission, ride)?;
+    if transmission.travels()
+        && let Some(steep) = ride
+            .intervals
+            .iter()
+            .find(|interval| interval.inclination.abs() > STEEPEST)
+    {
+        let message = format!(
+            "grade and acceleration of the cycle incline the oil by {:.1} deg at {} s, more than {:.0} deg",
+            steep.inclination.to_degrees(),
+            steep.start,
+            STEEPEST.to_degrees()
+        );
+        let help = "correct the speeds and grades of the cycle, or delete `travel`: cycles then do not incline the oil";
+        return Err(vec![
+            Diagnostic::error("housing.travel", message)
+                .code(gearloss_framework::codes::TRAVEL)
+                .help(help),
+        ]);
+    }
     for interval in ride.intervals {
         let gear = interval.given.gear.as_deref().unwrap_or(ride.gear);
         match (interval.demand, ride.vehicle) {
@@ -309,7 +329,14 @@ fn plan<'i>(
 fn advance(march: &mut March<'_>, cases: &mut Cases<'_>, planned: &[Planned<'_>]) -> Result<Vec<Passed>, Unbalanced> {
     let points: Vec<Point<'_>> = planned
         .iter()
-        .map(|planned| point_of(&cases.known[planned.asked.place].1, cases.ride, &planned.asked))
+        .map(|planned| {
+            point_of(
+                &cases.known[planned.asked.place].1,
+                cases.ride,
+                &planned.asked,
+                planned.interval.inclination,
+            )
+        })
         .collect();
     let stages = planned.iter().zip(&points).map(|(planned, point)| Stage {
         moment: Moment {
@@ -470,7 +497,7 @@ fn limit(
     driven.evaluations += 1;
     let scratch = cases.scratches[asked.place].alone();
     let case = &cases.known[asked.place].1;
-    let point = point_of(case, ride, &asked);
+    let point = point_of(case, ride, &asked, interval.inclination);
     let tried = t.try_point(case, &point, warm.unwrap_or(&oil), scratch, Noting::Muted);
     let asked_torque = scratch.port_torque(t.ports()[t.reference_port()].member);
     let Some(vehicle) = ride.vehicle.filter(|_| tried.is_ok()) else {
@@ -490,13 +517,14 @@ fn limit(
     Ok((Asked { place, torque, ..asked }, is_clear))
 }
 
-/// The operating point of a demand.
-fn point_of<'a>(case: &Case, ride: &Ride<'_>, asked: &'a Asked) -> Point<'a> {
+/// The operating point of a demand at the inclination of its interval.
+fn point_of<'a>(case: &Case, ride: &Ride<'_>, asked: &'a Asked, inclination: f64) -> Point<'a> {
     Point {
         speeds: std::slice::from_ref(&asked.speed),
         torques: &std::slice::from_ref(&asked.torque)[..case.torque_ports.len()],
         flow: ride.flow,
         tolerance: Tolerance::default(),
+        inclination,
     }
 }
 
@@ -507,7 +535,7 @@ fn steady(cases: &mut Cases<'_>, planned: &Planned<'_>, driven: &mut Driven) -> 
     let (case, scratch) = (&cases.known[asked.place].1, cases.scratches[asked.place].alone());
     let moment = Moment {
         case,
-        point: &point_of(case, ride, asked),
+        point: &point_of(case, ride, asked, interval.inclination),
         around: &planned.around,
     };
     let duration = interval.duration;

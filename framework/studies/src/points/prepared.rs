@@ -31,6 +31,7 @@ impl PreparedPoint {
             torques: &self.torques,
             flow: self.flow,
             tolerance: Tolerance::default(),
+            inclination: 0.0,
         }
     }
 

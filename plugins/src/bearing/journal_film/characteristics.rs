@@ -194,6 +194,17 @@ impl Characteristics {
         third * (R::constant(3.0) - third * third * 4.0)
     }
 
+    /// Derivative of the attitude angle by eps.
+    #[inline(always)]
+    pub fn turning<R: Real>(&self, place: &Place<R>) -> R {
+        let (e, root) = (place.eccentricity, place.root());
+        let half = R::constant(FRAC_PI_2) - (e / root * (2.0 / PI)).lift(f64::atan);
+        let [_, a1, a2, a3, a4] = self.angle;
+        // d atan(2 eps/(pi root))/d eps = 2/(pi root (root^2 + 4 eps^2/pi^2)).
+        let falling = R::constant(2.0 / PI) / (root * (root * root + e * e * (4.0 / (PI * PI))));
+        polynomial(&[a1, 2.0 * a2, 3.0 * a3, 4.0 * a4], e) * half - polynomial(&self.angle, e) * falling
+    }
+
     /// Side flow Q3/(D^3 psi w).
     #[inline(always)]
     pub fn flow<R: Real>(&self, place: &Place<R>) -> R {

@@ -8,6 +8,7 @@ use gearloss_framework::mechanism::bearing::{BearingAt, BearingKind, BearingPart
 use gearloss_framework::real::{Mask as _, Real};
 
 use super::characteristics::{Characteristics, FilmFit, Place};
+use super::stiffness::Loaded;
 
 /// Coefficient of friction of surfaces without a film, if none is stated.
 const SOLID_FRICTION: f64 = 0.1;
@@ -122,6 +123,19 @@ impl Journal {
     /// True if its film has a temperature of its own.
     pub fn is_cooled(&self) -> bool {
         self.cooling.is_some()
+    }
+
+    /// A film under its load, whose stiffness is asked.
+    #[inline(always)]
+    pub fn loaded<R: Real>(&self, force: R, film: &Film<R>) -> Loaded<R> {
+        let clearance = 0.5 * self.psi * self.diameter;
+        Loaded {
+            force,
+            slope: film.stiffness,
+            eccentricity: film.place.eccentricity * clearance,
+            sine: film.sine,
+            turning: self.functions.turning(&film.place) / clearance,
+        }
     }
 
     /// The film at a point.

@@ -168,6 +168,7 @@ impl Transmission {
                         torques: &std::slice::from_ref(&load.torque)[..case.torque_ports.len()],
                         flow,
                         tolerance: Tolerance::default(),
+                        inclination: 0.0,
                     },
                     temperatures: &load.temperatures,
                     snapshot: &mut warm.point,

@@ -71,6 +71,9 @@ pub struct DutyOfSet {
     pub motors: Vec<HeatOfMotor>,
     /// True if a motor was outside its map; the loss at the edge of the map is used.
     pub motors_beyond_map: bool,
+    /// Least and greatest inclination of the oil by grade and acceleration; absent unless the housing states its direction of travel. [deg]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inclination_deg: Option<[f64; 2]>,
     /// Temperatures of the nodes, or of the oil only.
     pub nodes: Vec<TemperatureOfNode>,
     /// Note of the study on the cycle.
@@ -276,6 +279,8 @@ pub struct IntervalOfDuty {
     pub speed_rpm: f64,
     /// Speed of the vehicle. [m/s]
     pub vehicle_speed_m_s: Option<f64>,
+    /// Inclination of the oil by grade and acceleration; absent if the cycle does not incline it. [deg]
+    pub inclination_deg: Option<f64>,
     /// State of the transmission.
     pub status: Status,
     /// Input power. [W]

@@ -22,6 +22,8 @@ pub struct At<'a> {
     pub temperatures: Vec<f64>,
     /// \[s\]
     pub duration: f64,
+    /// Inclination of the housing. \[rad\]
+    pub inclination: f64,
 }
 
 /// A transmission with the cases of the gears that were needed so far.
@@ -50,6 +52,7 @@ impl<'a> Points<'a> {
                 speed: stretch.speed,
                 temperatures: stretch.temperatures.clone(),
                 duration: stretch.heats.duration,
+                inclination: interval.inclination,
             })
             .collect()
     }
@@ -74,6 +77,7 @@ impl<'a> Points<'a> {
             torques: &[at.torque][..case.torque_ports.len()],
             flow: self.flow,
             tolerance: Tolerance::default(),
+            inclination: at.inclination,
         };
         Ok(read(&t.evaluate(case, &point, &at.temperatures, scratch)))
     }

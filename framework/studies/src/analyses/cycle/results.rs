@@ -30,8 +30,17 @@ pub fn duty(
     let energies = shares.sums(&driven.total.parts);
     let nodes = nodes(t, driven);
     let measured: Vec<Vec<(f64, f64)>> = nodes.iter().map(|node| measured(read, node)).collect();
-    let series = |s: &Stretch| interval(s, shares, energy.motors_j.is_some(), &measured);
-    let series = driven.stretches.iter().map(series).collect();
+    let inclinations: Vec<f64> = read
+        .intervals
+        .iter()
+        .map(|interval| interval.inclination.to_degrees())
+        .filter(|_| t.travels())
+        .collect();
+    let series = |(i, s): (usize, &Stretch)| IntervalOfDuty {
+        inclination_deg: inclinations.get(i).copied(),
+        ..interval(s, shares, energy.motors_j.is_some(), &measured)
+    };
+    let series = driven.stretches.iter().enumerate().map(series).collect();
     DutyOfSet {
         model_set: b.name.clone(),
         cycle: read.name.clone(),
@@ -46,6 +55,11 @@ pub fn duty(
         heat: heat(t, driven),
         motors: motors(t, driven),
         motors_beyond_map: driven.total.beyond_map,
+        inclination_deg: (!inclinations.is_empty()).then(|| {
+            let simulated = &inclinations[..driven.stretches.len()];
+            let least = simulated.iter().copied().fold(0.0, f64::min);
+            [least, simulated.iter().copied().fold(0.0, f64::max)]
+        }),
         nodes: nodes
             .into_iter()
             .zip(measured)
@@ -220,6 +234,7 @@ fn interval(s: &Stretch, shares: &Shares, has_motors: bool, measured: &[Vec<(f64
         torque_nm: s.torque,
         speed_rpm: s.speed * RPM,
         vehicle_speed_m_s: s.vehicle_speed,
+        inclination_deg: None,
         status: s.status,
         input_w: power(heats.input),
         output_w: power(heats.output),

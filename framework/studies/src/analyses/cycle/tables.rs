@@ -160,6 +160,13 @@ pub fn network<'a>(cx: &Planner<'_>, b: &'a Built<'_>, duties: &Duties<'_>) -> R
         .transmission
         .network()
         .filter(|_| oil == OilTemperature::Network && in_time);
+    if network.is_some() && b.transmission.travels() {
+        return Err(cx.wrong(
+            &format!("{}.export", cx.path()),
+            "the losses in the FMU are those on a level road, but `housing.travel` inclines the oil in cycles",
+            "delete `housing.travel`, or the export",
+        ));
+    }
     if network.is_some_and(Network::uses_oil_network) {
         return Err(cx.wrong(
             &format!("{}.export", cx.path()),
