@@ -92,10 +92,10 @@ const MESHES: [(&str, &[(&str, &str, FieldKind, &str)]); 3] = [
         &[
             ("module", "Axial module", FieldKind::Quantity, "of the worm"),
             (
-                "diameter_factor",
-                "Diameter factor",
-                FieldKind::Number,
-                "reference diameter of the worm over the module",
+                "worm_diameter",
+                "Reference diameter",
+                FieldKind::Quantity,
+                "of the worm",
             ),
             ("pressure_angle", "Pressure angle", FieldKind::Quantity, ""),
         ],

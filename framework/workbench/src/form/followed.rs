@@ -101,9 +101,9 @@ impl Form<'_> {
             "worm_meshes" => {
                 let of = |key: &str| self.text(&format!("worm_meshes.{}.{key}", axis.mesh));
                 let module = of("module").and_then(length)?;
-                let factor = of("diameter_factor")?.trim().parse::<f64>().ok()?;
+                let worm = of("worm_diameter").and_then(length)?;
                 let [_, wheel] = self.gears_of("worm_meshes", axis.mesh)?;
-                let distance = 0.5 * module * (factor + self.teeth(wheel)?);
+                let distance = 0.5 * (worm + module * self.teeth(wheel)?);
                 (distance > 0.0 && distance.is_finite()).then_some(distance)
             }
             // An offset does not follow from teeth.
