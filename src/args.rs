@@ -185,15 +185,7 @@ pub struct NewGearboxArgs {
 }
 
 /// Layouts that are asked for and cannot be described yet.
-const UNDESCRIBED: [&str; 7] = [
-    "worm",
-    "bevel",
-    "hypoid",
-    "cycloidal",
-    "strain-wave",
-    "bevel-helical",
-    "helical-worm",
-];
+const UNDESCRIBED: [&str; 5] = ["bevel", "hypoid", "cycloidal", "strain-wave", "helical-worm"];
 
 /// Names of layouts with what they are.
 fn layouts() -> PossibleValuesParser {

@@ -154,6 +154,12 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
         ("examples/planetary-reducer/gearbox.yaml", &[None]),
         ("examples/electric-drive-unit/gearbox.yaml", &[None]),
         ("examples/electric-drive-unit/gearbox-beam.yaml", &[None]),
+        ("examples/worm-drive/gearbox.yaml", &[None]),
+        ("framework/workbench/src/form/layouts/bevel-helical.yaml", &[None]),
+        (
+            "framework/workbench/src/form/layouts/axle.yaml",
+            &[None, Some("iso14179_2")],
+        ),
     ] {
         for set in sets {
             let t = transmission(&language, path, *set);

@@ -46,6 +46,31 @@ fn planetary() -> Drive {
     }
 }
 
+/// A spiral bevel stage before a helical one.
+fn bevel_helical() -> Drive {
+    Drive {
+        file: "framework/workbench/src/form/layouts/bevel-helical.yaml",
+        gear: "only",
+        speed: 1500.0,
+        torque: 45.0,
+        set: vec![
+            ("housing.outside", json!({ "box": ["350 mm", "200 mm", "300 mm"] })),
+            ("thermal.mode", json!("network")),
+            ("thermal.network", json!("auto")),
+        ],
+    }
+}
+
+/// A worm drive, which loses more than a tenth of its power.
+fn worm() -> Drive {
+    Drive {
+        file: "examples/worm-drive/gearbox.yaml",
+        speed: 1000.0,
+        torque: 5.0,
+        ..bevel_helical()
+    }
+}
+
 /// A point at rest: temperatures and heat of its network, loss of every part.
 struct Rest {
     transmission: Transmission,
@@ -118,7 +143,7 @@ impl Drive {
 #[test]
 fn the_heat_of_every_part_is_counted_once_and_leaves() {
     let language = common::language();
-    for drive in [two_speed(), planetary()] {
+    for drive in [two_speed(), planetary(), bevel_helical(), worm()] {
         let rest = drive.rest(&language);
         assert_eq!(rest.steady.outcome, Outcome::Converged);
         let loss: f64 = rest.losses.iter().sum();
@@ -148,6 +173,8 @@ fn loaded_gears_are_warmer_than_their_oil_and_oil_is_warmer_than_the_casing() {
     for (drive, bodies) in [
         (two_speed(), &["input", "intermediate", "output", "G3"][..]),
         (planetary(), &["sun_shaft", "planet"][..]),
+        (bevel_helical(), &["input", "intermediate"][..]),
+        (worm(), &["worm"][..]),
     ] {
         let rest = drive.rest(&language);
         for body in bodies {
@@ -181,7 +208,7 @@ fn the_oil_is_about_as_warm_as_in_one_balance_of_the_housing() {
 #[test]
 fn every_mesh_heats_its_gears_bearings_heat_themselves_and_churning_heats_the_oil() {
     let language = common::language();
-    for drive in [two_speed(), planetary()] {
+    for drive in [two_speed(), planetary(), bevel_helical(), worm()] {
         let transmission = drive.transmission(&language);
         let network = transmission.network().unwrap();
         let names = network.names();

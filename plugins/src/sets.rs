@@ -10,6 +10,7 @@ inventory::submit! {
         yaml: "
 gear_mesh: { type: iso14179_2 }
 bevel_mesh: { type: mean_friction, mean_friction: { type: schlenk } }
+worm_mesh: { type: din_3996 }
 gear_drag: { churning: { type: iso14179_2, speed_of: pinion } }
 bearing: { type: iso14179_2 }
 seal: { type: iso14179_2 }
@@ -26,6 +27,8 @@ inventory::submit! {
         yaml: "
 gear_mesh: { type: path_integral, tooth_friction: { type: xu } }
 bevel_mesh: { type: path_integral, tooth_friction: { type: xu } }
+worm_mesh: { type: din_3996 }
+crossed_helical_mesh: { type: point_contact, tooth_friction: { type: xu } }
 gear_drag: { churning: { type: changenet_2011 } }
 bearing: { type: skf }
 seal: { type: iso14179_2 }

@@ -2,6 +2,7 @@
 
 mod batch;
 mod derive;
+mod found_friction;
 mod grip;
 mod oil_level;
 mod oil_supply;
@@ -14,6 +15,7 @@ mod transfers;
 
 pub use batch::{Batch, BatchScratch, Block};
 pub use derive::{GivenQuantity, NoSlopes, Slope, Slopes};
+use found_friction::FoundFriction;
 pub use oil_level::{LevelEstimate, LevelFrom, OilLevels};
 pub use oil_supply::{ChamberLevel, ElementFlow, OilSupply, PocketLevel, SupplyFinding, WindowFlow};
 pub use ratings::{ComponentRating, Ratings};
@@ -330,7 +332,7 @@ impl Transmission {
         models.loaded.fill(0);
         models.ideal = s.ideal;
         models.friction.fill(R::ZERO);
-        models.found_friction.fill(0);
+        models.found_friction.fill(FoundFriction::NONE);
         models.round = 0;
         work.live = models.conditions.live;
         let losses = |flow: &mut FlowState<'_, R>| self.lose(case, flow, models, notes);
@@ -361,6 +363,13 @@ impl Transmission {
             || {
                 m.round += 1;
                 self.forces(flow.multipliers, m);
+                // Bearings read the friction of these meshes.
+                let crossed_first = !m.friction.is_empty();
+                for &i in flow.laws.meshes.iter().filter(|_| crossed_first) {
+                    if self.meshes.get(i).is_some_and(|mesh| mesh.seat.crossed().is_some()) {
+                        self.lose_at_mesh(i, flow, m, notes);
+                    }
+                }
                 for &drag in &flow.laws.drags {
                     let i = flow.drags[drag].component;
                     let component = &self.components[i];
@@ -368,8 +377,9 @@ impl Transmission {
                         flow.moments[drag] = R::ZERO;
                         continue;
                     }
-                    self.load(case, component, (flow.ports, flow.drives), m);
                     m.conditions.live = *flow.live;
+                    self.load(case, component, (flow.ports, flow.drives), m);
+                    *flow.live = m.conditions.live;
                     let (state, book) = m.conditions.open(notes);
                     let loss = loaded_loss(component, &state, &m.uneven_loads, &book, flow.live);
                     let speed = m.relative[i];
@@ -382,25 +392,42 @@ impl Transmission {
                         self.lose_at_transfer(case, i - self.meshes.len(), flow, m, notes);
                         continue;
                     };
-                    if mesh.law.off() {
-                        continue;
+                    if !crossed_first || mesh.seat.crossed().is_none() {
+                        self.lose_at_mesh(i, flow, m, notes);
                     }
-                    m.tangential[i] = m.forces[i];
-                    m.conditions.live = *flow.live;
-                    let (state, book) = m.conditions.open(notes);
-                    let answer = self.mesh(i, m.tangential[i], flow.drives[i], &state, &book, flow.live);
-                    let speed = self.mesh_speed(i, state.speeds);
-                    flow.mesh_loss[i] = match &answer {
-                        Ok(loss) => {
-                            let watts = loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor;
-                            R::select(speed.is_zero(), R::ZERO, watts * self.mesh_grip(i, state.speeds))
-                        }
-                        Err(_) => R::ZERO,
-                    };
-                    m.mesh_losses[i] = answer;
                 }
             },
         );
+    }
+
+    /// Loss of a mesh at the torques of the flow; of one on axes that cross also its friction force.
+    #[inline(always)]
+    fn lose_at_mesh<R: Answers>(&self, i: usize, flow: &mut FlowState<'_, R>, m: &mut Models<R>, notes: bool) {
+        let mesh = &self.meshes[i];
+        if mesh.law.off() {
+            return;
+        }
+        m.tangential[i] = m.forces[i];
+        m.conditions.live = *flow.live;
+        let (state, book) = m.conditions.open(notes);
+        let answer = self.mesh(i, m.tangential[i], flow.drives[i], &state, &book, flow.live);
+        let speed = self.mesh_speed(i, state.speeds);
+        flow.mesh_loss[i] = match &answer {
+            Ok(loss) => {
+                let watts = loss.total_watts(speed) * mesh.seat.count * mesh.loss_factor;
+                R::select(speed.is_zero(), R::ZERO, watts * self.mesh_grip(i, state.speeds))
+            }
+            Err(_) => R::ZERO,
+        };
+        if let Some(teeth) = mesh.seat.crossed().filter(|_| !m.ideal) {
+            let force = m.forces[i];
+            m.friction[i] = self.friction_of(i, teeth, force, &answer, state.speeds);
+            let found = &mut m.found_friction[i];
+            found.turn(flow.drives[i]);
+            found.add(!force.is_equal(found.force[0]), force, m.friction[i]);
+            found.round = m.round;
+        }
+        m.mesh_losses[i] = answer;
     }
 
     /// Tangential forces of all meshes and chains. They are the first rows, in the same order.
@@ -453,7 +480,7 @@ impl Transmission {
         }
     }
 
-    /// Friction forces of the meshes of a group at the present torques, unless they are known for these.
+    /// Friction forces of the meshes of a group at the present torques, unless they are known for these or follow from those at others.
     #[inline(never)]
     fn find_friction<R: Answers>(&self, group: &Group, drives: &[Drive], m: &mut Models<R>) {
         for &i in &group.meshes {
@@ -461,13 +488,26 @@ impl Transmission {
             let Some(teeth) = mesh.seat.crossed().filter(|_| !mesh.law.off() && !m.ideal) else {
                 continue;
             };
-            if std::mem::replace(&mut m.found_friction[i], m.round) != m.round {
+            let found = &mut m.found_friction[i];
+            if std::mem::replace(&mut found.round, m.round) == m.round {
+                continue;
+            }
+            found.turn(drives[i]);
+            let force = m.forces[i];
+            let known = if m.derives { R::Mask::NEVER } else { found.gives(force) };
+            if !(known | !m.conditions.live).all() {
                 // The law is evaluated again with its part of the flow, with notes.
                 let mut live = m.conditions.live;
                 let (state, book) = m.conditions.open(false);
-                let answer = self.mesh(i, m.forces[i], drives[i], &state, &book, &mut live);
-                m.friction[i] = self.friction_of(i, teeth, m.forces[i], &answer, state.speeds);
+                let answer = self.mesh(i, force, drives[i], &state, &book, &mut live);
+                let friction = self.friction_of(i, teeth, force, &answer, state.speeds);
+                m.found_friction[i].add(!known, force, friction);
+                if R::COUNT > 1 {
+                    // A point alone has an answer where several have none.
+                    m.conditions.live = m.conditions.live & (known | live);
+                }
             }
+            m.friction[i] = m.found_friction[i].at(force);
         }
     }
 
@@ -570,7 +610,7 @@ impl Transmission {
                     if let Some(teeth) = mesh.seat.crossed().filter(|_| !mesh.law.off() && !m.ideal) {
                         let speeds = &m.conditions.speeds;
                         m.friction[i] = self.friction_of(i, teeth, m.tangential[i], &m.mesh_losses[i], speeds);
-                        m.found_friction[i] = m.round;
+                        m.found_friction[i].round = m.round;
                     }
                 }
                 for group in 0..self.loads.groups().len() {

@@ -8,6 +8,7 @@ mod aliases;
 mod bearings;
 mod check;
 mod coded;
+mod crossed;
 mod draft;
 mod file;
 mod gears;
@@ -130,6 +131,7 @@ fn within_limits(model: &Model) -> Result<(), Diagnostic> {
             "planet_carrier",
         ]
         .contains(&kind)
+            || map::is_gear(kind)
             || kind.ends_with("_gear")
             || kind.ends_with("_stage")
             || kind.ends_with("_coupling")
@@ -200,16 +202,19 @@ fn convert(source: &Source<'_>, title: String, language: &Language) -> Option<Im
         );
     }
     let mut map = Map::new(source);
-    gears::check_stages(source);
-    if source.has_errors() {
-        return None;
-    }
     map.find_supports();
     map.connected = shafts::connected(&map);
     map.sump = oil::sump(&map).map(|oil| id("lubricant", oil.id));
     shafts::check_axes(&map);
     map.forces = loads::forces(&map);
-    let (gears, meshes, sets) = gears::gears(&mut map);
+    let gears::Cylindrical {
+        mut gears,
+        meshes,
+        sets,
+        crossed,
+    } = gears::gears(&mut map);
+    let crossed = crossed::crossed(&map, &crossed);
+    gears.extend(crossed.gears);
     if gears.is_empty() && !source.has_errors() {
         source.report(no_gears(source));
     }
@@ -221,12 +226,14 @@ fn convert(source: &Source<'_>, title: String, language: &Language) -> Option<Im
         title: title.clone(),
         gears,
         meshes,
+        crossed: crossed.meshes,
+        assumed: crossed.assumed,
         sets,
         ..Draft::default()
     };
     let (bearings, placeholders) = bearings::bearings(&map, language);
     draft.bearings = bearings;
-    draft.assumed = placeholders;
+    draft.assumed.extend(placeholders);
     oil::oils(&map, &mut draft);
     let loads = loads::loads(&map);
     describe_loads(&map, &loads, &mut draft);
@@ -238,6 +245,14 @@ fn convert(source: &Source<'_>, title: String, language: &Language) -> Option<Im
     }
     missing(&map, &mut draft);
     draft.from_file = vec!["shafts", "gears", "meshes", "bearings"];
+    for section in ["bevel_meshes", "worm_meshes", "crossed_helical_meshes"] {
+        if draft.crossed.iter().any(|mesh| mesh.section == section) {
+            draft.from_file.push(section);
+        }
+    }
+    if draft.meshes.is_empty() {
+        draft.from_file.retain(|section| *section != "meshes");
+    }
     let gears: BTreeSet<String> = draft.states.iter().map(|(gear, _)| gear.clone()).collect();
     let study = study::study(&map, &loads, &title, &gears);
     let faults = check::fit(&mut draft, language, source);
@@ -449,7 +464,7 @@ fn report(map: &Map<'_>, cases: usize, faults: Vec<String>) -> Vec<String> {
 fn no_gears(source: &Source<'_>) -> Diagnostic {
     let found = Diagnostic::error("", "the model has no gears")
         .code(crate::codes::REXS_PART)
-        .help("give a REXS model of a gearbox with cylindrical stages");
+        .help("give a REXS model of a gearbox with cylindrical, planetary, bevel or worm stages");
     let cases: usize = source.model.spectra.iter().map(|spectrum| spectrum.cases.len()).sum();
     let bearings = source.components("rolling_bearing_with_catalog_geometry").count();
     if cases == 0 || bearings == 0 {

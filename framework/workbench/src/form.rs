@@ -36,8 +36,3 @@ pub fn forms() -> Vec<Form> {
     });
     forms.collect()
 }
-
-/// The name of the field of a centre distance.
-fn distance(mesh: &str) -> String {
-    format!("meshes.{mesh}.centre_distance")
-}

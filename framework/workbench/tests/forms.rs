@@ -231,6 +231,36 @@ fn what_is_not_typed_follows() {
     assert!(form("two-stage", &[("gears.G1.z", "many")]).followed.is_empty());
 }
 
+/// On axes that cross a centre distance or an offset is a coordinate of an axis, too.
+#[test]
+fn distances_and_offsets_place_axes_that_cross() {
+    let form = |layout: &str, typed: &[(&str, &str)]| {
+        let written = written(Layout::named(layout).unwrap(), &values(typed)).unwrap();
+        let gearbox = Gearbox::of_text(language(), &written.text, "gearbox.yaml", "").unwrap();
+        let built = gearbox.transmission(language(), &Choice::default());
+        assert!(built.is_ok(), "{layout}: {:?}", built.err());
+        written
+    };
+    let worm = form("worm", &[("gears.wheel.z", "51")]);
+    assert_eq!(
+        worm.followed,
+        values(&[("worm_meshes.stage.centre_distance", "120 mm")])
+    );
+    assert!(worm.text.contains("through: [0 mm, 0 mm, 120 mm]"), "{}", worm.text);
+    let axle = form("axle", &[("bevel_meshes.final.offset", "20 mm")]);
+    assert!(axle.text.contains("offset: 20 mm "), "{}", axle.text);
+    assert_eq!(
+        axle.text.matches("through: [0 mm, 0 mm, 20 mm]").count(),
+        3,
+        "{}",
+        axle.text
+    );
+    let reducer = form("bevel-helical", &[("meshes.helical.centre_distance", "124 mm")]);
+    for place in ["axis: [124 mm, 0 mm]", "through: [30 mm, 124 mm, 0 mm]"] {
+        assert!(reducer.text.contains(place), "{place}: {}", reducer.text);
+    }
+}
+
 /// With a heat balance every layout finds its oil temperature.
 #[test]
 fn a_form_with_a_heat_balance_is_solved() {

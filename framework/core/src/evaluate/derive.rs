@@ -174,6 +174,7 @@ impl Transmission {
         self.settle_prescribed(case, &mut s, !0, Noting::Muted);
         let mut plain = BTreeSet::new();
         s.models.ideal = point.flow == PowerFlow::Ideal;
+        s.models.derives = true;
         let (work, models) = (&mut s.work, &mut s.models);
         plain.extend(by_differences(&mut models.conditions.trace));
         let mut losses = |flow: &mut crate::flow::FlowState<'_, Dual>| {

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::sync::Arc;
 
+use super::found_friction::FoundFriction;
 use crate::attach::{Incline, Oil, State};
 use crate::flow::{Balance, Status, Work};
 use crate::hydraulics::{self, Supplies};
@@ -115,10 +116,12 @@ pub(super) struct Models<R: Points> {
     /// Tangential force of each mesh as its law was evaluated, and at the present torques; those of chains follow. \[N\]
     pub tangential: Vec<R>,
     pub forces: Vec<R>,
-    /// Friction force of each mesh at the present torques, with the sign of the speed of the first gear, and the round in which it was found;
-    /// empty without meshes on axes that cross. \[N\]
+    /// Friction force of each mesh at the present torques, with the sign of the speed of the first gear, and at others of the point; empty
+    /// without meshes on axes that cross. \[N\]
     pub friction: Vec<R>,
-    pub found_friction: Vec<usize>,
+    pub found_friction: Vec<FoundFriction<R>>,
+    /// True if the numbers have derivatives, which change where the numbers themselves do not.
+    pub derives: bool,
     /// True if the power flow is ideal: losses change no torque.
     pub ideal: bool,
     pub component_losses: Vec<Result<Loss<R>, Undefined>>,
@@ -243,7 +246,8 @@ impl<R: Points> Scratch<R> {
                 tangential: zeros(forces),
                 forces: zeros(forces),
                 friction: zeros(with_friction),
-                found_friction: vec![0; with_friction],
+                found_friction: vec![FoundFriction::NONE; with_friction],
+                derives: false,
                 ideal: false,
                 component_losses: losses(transmission.components.len()),
                 mesh_losses: losses(meshes),

@@ -35,7 +35,7 @@ impl Drive {
     }
 
     /// The gear that loses torque.
-    pub(super) fn driven(self) -> Driven {
+    pub(crate) fn driven(self) -> Driven {
         usize::from(self == Self::Second)
     }
 }

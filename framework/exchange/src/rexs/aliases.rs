@@ -26,6 +26,36 @@ const ATTRIBUTES: &[(&str, &str, &[&str])] = &[
         "arithmetic_mean_roughness_flank_iso_4287_1997",
         &[],
     ),
+    ("reference_diameter_din_3975_2017", "reference_diameter_worm_gear", &[]),
+    ("pressure_angle_din_3975_2017", "pressure_angle_worm_gear", &[]),
+    ("axial_module_din_3975_2017", "axial_module", &[]),
+    ("reference_lead_angle_din_3975_2017", "lead_angle_worm_gear", &[]),
+    ("tip_diameter_din_3975_2017", "tip_diameter_worm_gear", &[]),
+    ("root_diameter_din_3975_2017", "root_diameter_worm_gear", &[]),
+    ("flank_form_din_3975_2017", "flank_form", &[]),
+    ("face_width_din_3975_2017", "face_width_worm_wheel", &[]),
+    (
+        "generated_pressure_angle_drive",
+        "generated_pressure_angle_on_drive_side",
+        &[],
+    ),
+    (
+        "generated_pressure_angle_coast",
+        "generated_pressure_angle_on_coast_side",
+        &[],
+    ),
+    (
+        "nominal_design_pressure_angle_drive",
+        "nominal_design_pressure_angle_on_drive_side",
+        &[],
+    ),
+    (
+        "nominal_design_pressure_angle_coast",
+        "nominal_design_pressure_angle_on_coast_side",
+        &[],
+    ),
+    ("basic_addendum_coefficient", "basic_crown_gear_addendum_factor", &[]),
+    ("basic_dedendum_coefficient", "basic_crown_gear_dedendum_factor", &[]),
 ];
 
 /// Values of enumerations that were spelled otherwise: old, new. Hyphens were replaced by underscores.

@@ -124,11 +124,11 @@ fn bearing(
         comment: named(component),
         shaft: map.member_name(shaft),
         outer: around.map(|member| map.member_name(member)),
-        at: map.frame.coordinates(pose.origin)[0],
+        at: map.along(shaft, pose.origin),
         axial: axial(
             map,
             component,
-            map.frame.sense(pose.u) * if flipped { -1.0 } else { 1.0 },
+            map.sense(shaft, pose.u) * if flipped { -1.0 } else { 1.0 },
         ),
         radial_stiffness: source
             .positive(component, "radial_stiffness", Quantity::Stiffness)
@@ -286,7 +286,7 @@ fn relative_clearance(map: &Map<'_>, component: &Component, bore: f64) -> Option
 /// Diameter of a part at a place: of its bore, or outside.
 fn diameter_near(map: &Map<'_>, part: Option<Id>, at: f64, inner: bool) -> Option<f64> {
     let part = map.source.component(part?)?;
-    let sections = super::shafts::sections(map, part);
+    let sections = super::shafts::sections(map, map.members.of(part.id).unwrap_or(part.id), part);
     let here = sections
         .iter()
         .find(|section| section.from - 1e-6 <= at && at <= section.to + 1e-6)?;

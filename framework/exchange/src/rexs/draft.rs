@@ -12,6 +12,7 @@ pub struct Draft {
     pub shafts: Vec<Shaft>,
     pub gears: Vec<Gear>,
     pub meshes: Vec<Mesh>,
+    pub crossed: Vec<CrossedMesh>,
     pub sets: Vec<Set>,
     pub couplings: Vec<Coupling>,
     /// Gear and its engaged couplings.
@@ -37,11 +38,20 @@ pub struct Port {
     pub shaft: String,
 }
 
+/// The axis of a shaft. \[mm\]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Axis {
+    /// Along x: y and z.
+    AlongX([f64; 2]),
+    /// A point and a direction.
+    Directed([f64; 3], [f64; 3]),
+}
+
 #[derive(Debug, Default)]
 pub struct Shaft {
     pub id: String,
     pub comment: String,
-    pub axis: Option<[f64; 2]>,
+    pub axis: Option<Axis>,
     pub sections: Vec<Section>,
     pub mass: Option<(f64, f64)>,
     pub loads: Vec<Load>,
@@ -70,13 +80,15 @@ pub struct Gear {
     pub id: String,
     pub comment: String,
     pub shaft: String,
-    pub at: f64,
+    /// None where it follows from the teeth.
+    pub at: Option<f64>,
     pub z: i64,
     pub facewidth: f64,
     pub ring: bool,
     /// Turns on its shaft until a coupling connects it.
     pub loose: bool,
     pub hand: Option<&'static str>,
+    pub faces: Option<&'static str>,
     pub profile_shift: Option<f64>,
     pub tip_diameter: Option<f64>,
     pub root_diameter: Option<f64>,
@@ -94,6 +106,19 @@ pub struct Mesh {
     pub centre_distance: Option<f64>,
     pub modulus: Option<f64>,
     pub poisson: Option<f64>,
+    pub lubricant: Option<String>,
+}
+
+/// A pair on axes that cross.
+#[derive(Debug)]
+pub struct CrossedMesh {
+    /// Section of the gearbox file.
+    pub section: &'static str,
+    pub id: String,
+    pub comment: String,
+    pub gears: [String; 2],
+    /// Keys and their values as text.
+    pub keys: Vec<(&'static str, String)>,
     pub lubricant: Option<String>,
 }
 

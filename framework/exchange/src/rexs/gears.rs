@@ -6,8 +6,7 @@ use super::draft::{Gear, Mesh, Set};
 use super::map::{Map, id, named};
 use super::model::{Component, Id};
 use super::pair::{Basic, distance, matching_shift};
-use super::pose::{cross, dot, sum, unit};
-use super::source::Source;
+use super::pose::{PARALLEL, cross, dot, sum, unit};
 use super::units::Quantity;
 use super::yaml::number;
 use crate::codes;
@@ -19,15 +18,15 @@ const ROUNDING: f64 = 1e-3;
 #[derive(Debug, Clone)]
 pub struct ReadGear<'a> {
     pub component: &'a Component,
-    member: Id,
+    pub member: Id,
     ring: bool,
     at: f64,
-    z: i64,
+    pub z: i64,
     facewidth: f64,
-    normal_module: f64,
+    pub normal_module: f64,
     /// Signed. \[deg\]
-    helix: f64,
-    pressure_angle: Option<f64>,
+    pub helix: f64,
+    pub pressure_angle: Option<f64>,
     shift: Option<f64>,
 }
 
@@ -79,7 +78,7 @@ pub fn read<'a>(map: &Map<'a>) -> BTreeMap<Id, ReadGear<'a>> {
                 component,
                 member,
                 ring,
-                at: map.frame.coordinates(pose.origin)[0],
+                at: map.along(member, pose.origin),
                 z: z.abs(),
                 facewidth: source.needed(component, "face_width", Quantity::Length),
                 normal_module: source.needed(component, "normal_module", Quantity::Length),
@@ -136,21 +135,10 @@ fn flanks(map: &Map<'_>, gear: &Component) -> [Option<f64>; 2] {
     ]
 }
 
-/// Reports stages that gearbox files do not describe.
-pub fn check_stages(source: &Source<'_>) {
-    for stage in source.model.components.values() {
-        let what = match stage.kind.as_str() {
-            "worm_stage" => "worm stages",
-            "bevel_stage" => "bevel and hypoid stages",
-            _ => continue,
-        };
-        source.error(
-            stage,
-            codes::REXS_PART,
-            &format!("{what} are not imported yet"),
-            "import a model of the other stages alone, and add the pair in `bevel_meshes` or `worm_meshes`",
-        );
-    }
+/// True if the axes of two members are not parallel.
+pub fn crosses(map: &Map<'_>, members: [Id; 2]) -> bool {
+    let axes = members.map(|member| map.poses.get(member).map(|pose| pose.u));
+    matches!(axes, [Some(a), Some(b)] if dot(a, b).abs() < PARALLEL)
 }
 
 /// All pairs of gears.
@@ -188,10 +176,22 @@ fn pairs<'a>(map: &Map<'a>, gears: &BTreeMap<Id, ReadGear<'a>>) -> Vec<Pair<'a>>
     pairs
 }
 
+/// What a model has of cylindrical gears.
+#[derive(Debug)]
+pub struct Cylindrical<'a> {
+    pub gears: Vec<Gear>,
+    pub meshes: Vec<Mesh>,
+    pub sets: Vec<Set>,
+    /// Stages on axes that cross, with their gears.
+    pub crossed: Vec<(&'a Component, [ReadGear<'a>; 2])>,
+}
+
 /// Gears, meshes and planetary sets. Marks the planets that are copies.
-pub fn gears(map: &mut Map<'_>) -> (Vec<Gear>, Vec<Mesh>, Vec<Set>) {
+pub fn gears<'a>(map: &mut Map<'a>) -> Cylindrical<'a> {
     let gears = read(map);
-    let pairs = pairs(map, &gears);
+    let (crossed, pairs): (Vec<Pair<'a>>, Vec<Pair<'a>>) = pairs(map, &gears)
+        .into_iter()
+        .partition(|pair| crosses(map, pair.gears.map(|id| gears[&id].member)));
     let sets = sets(map, &gears, &pairs);
     let map = &*map;
     let mut shifts: BTreeMap<Id, Option<f64>> = BTreeMap::new();
@@ -216,7 +216,9 @@ pub fn gears(map: &mut Map<'_>) -> (Vec<Gear>, Vec<Mesh>, Vec<Set>) {
             _ => Some("left"),
         };
         hands.extend(hand);
+        let is_crossed = crossed.iter().any(|pair| pair.gears.contains(id));
         let shift = shifts.get(id).copied().unwrap_or(gear.shift);
+        let shift = shift.filter(|shift| !is_crossed || *shift != 0.0);
         written.push(written_gear(map, gear, hand, shift));
     }
     if !hands.is_empty() {
@@ -224,7 +226,15 @@ pub fn gears(map: &mut Map<'_>) -> (Vec<Gear>, Vec<Mesh>, Vec<Set>) {
             "a positive helix angle is a right-hand helix; the sense changes the direction of the axial forces only",
         );
     }
-    (written, meshes, sets)
+    Cylindrical {
+        gears: written,
+        meshes,
+        sets,
+        crossed: crossed
+            .into_iter()
+            .map(|pair| (pair.stage, pair.gears.map(|id| gears[&id].clone())))
+            .collect(),
+    }
 }
 
 fn written_gear(map: &Map<'_>, gear: &ReadGear<'_>, hand: Option<&'static str>, shift: Option<f64>) -> Gear {
@@ -274,11 +284,12 @@ fn written_gear(map: &Map<'_>, gear: &ReadGear<'_>, hand: Option<&'static str>, 
         comment: named(component),
         shaft: map.member_name(map.loose.get(&gear.member).copied().unwrap_or(gear.member)),
         loose: map.loose.contains_key(&gear.member),
-        at: gear.at,
+        at: Some(gear.at),
         z: gear.z,
         facewidth: gear.facewidth,
         ring: gear.ring,
         hand,
+        faces: None,
         profile_shift: shift,
         tip_diameter,
         root_diameter: diameter("root_diameter", -1.0),
@@ -373,9 +384,7 @@ fn mismatch(a: &ReadGear<'_>, b: &ReadGear<'_>) -> Option<String> {
 
 /// The distance of the axes, which the stage repeats. \[mm\]
 fn centre_distance(map: &Map<'_>, stage: &Component, a: &ReadGear<'_>, b: &ReadGear<'_>) -> Option<f64> {
-    let (from, to) = (map.poses.get(a.member)?, map.poses.get(b.member)?);
-    let [_, y, z] = map.frame.coordinates(sum(to.origin, from.origin, -1.0));
-    let of_axes = y.hypot(z);
+    let of_axes = map.beside(a.member, map.poses.get(b.member)?.origin)?;
     let stated = map.source.positive(stage, "center_distance", Quantity::Length);
     match stated {
         Some(stated) if (stated - of_axes).abs() > ROUNDING => {
@@ -575,12 +584,16 @@ fn signature(map: &Map<'_>, train: &[Id], gears: &BTreeMap<Id, ReadGear<'_>>, pa
 
 /// Planets at equal angles about the carrier; other angles are a note.
 fn check_spacing(map: &Map<'_>, stage: &Component, carrier: Id, trains: &[Vec<Id>]) {
+    let (along, up) = match map.line(carrier) {
+        None => (map.frame.x, map.frame.z),
+        Some(line) => (line.u, line.w),
+    };
     let angle = |planet: Id| {
         let axis = map.poses.get(carrier)?.origin;
         let arm = sum(map.poses.get(planet)?.origin, axis, -1.0);
-        let arm = unit(sum(arm, map.frame.x, -dot(arm, map.frame.x)))?;
-        let beside = cross(map.frame.x, map.frame.z);
-        Some(dot(arm, beside).atan2(dot(arm, map.frame.z)).to_degrees())
+        let arm = unit(sum(arm, along, -dot(arm, along)))?;
+        let beside = cross(along, up);
+        Some(dot(arm, beside).atan2(dot(arm, up)).to_degrees())
     };
     let mut angles: Vec<f64> = trains.iter().filter_map(|train| angle(*train.first()?)).collect();
     angles.sort_by(f64::total_cmp);

@@ -116,8 +116,7 @@ pub fn forces(map: &Map<'_>) -> Vec<Force> {
                     values.number(load, &id, Quantity::Moment).unwrap_or(0.0)
                 });
                 let force = map.frame.coordinates(pose.turned(force)).map(|x| x + 0.0);
-                let moment = map.frame.coordinates(pose.turned([0.0, v, w]));
-                (force, [moment[1] + 0.0, moment[2] + 0.0])
+                (force, map.bending(member, pose.turned([0.0, v, w])))
             })
             .collect();
         if by_case
@@ -134,8 +133,8 @@ pub fn forces(map: &Map<'_>) -> Vec<Force> {
             member,
             comment: named(load),
             at: map.poses.get(load.id).map_or_else(
-                || super::shafts::along(map, pose, at),
-                |pose_of_load| map.frame.coordinates(pose_of_load.origin)[0],
+                || super::shafts::along(map, member, pose, at),
+                |pose_of_load| map.along(member, pose_of_load.origin),
             ),
             by_case,
         });
@@ -315,13 +314,13 @@ fn torque_member<'a>(map: &Map<'a>, values: &Values<'a>, ports: &[Id]) -> Option
         .copied()
 }
 
-/// Speed of a member about x. \[rpm\]
+/// Speed of a member about its axis, in the direction of positions. \[rpm\]
 fn speed_of<'a>(map: &Map<'a>, values: &Values<'a>, member: Id) -> Option<f64> {
     let shafts = map.members.parts(member).filter_map(|id| map.source.component(id));
     let mut stated: Vec<(bool, f64)> = shafts
         .filter_map(|shaft| {
             let speed = values.number(shaft, "rotational_speed", Quantity::Speed)?;
-            let sense = map.frame.sense(map.poses.get(shaft.id)?.u);
+            let sense = map.sense(member, map.poses.get(shaft.id)?.u);
             Some((values.flag(shaft, "defines_speed") != Some(true), speed * sense))
         })
         .collect();
@@ -329,7 +328,7 @@ fn speed_of<'a>(map: &Map<'a>, values: &Values<'a>, member: Id) -> Option<f64> {
     stated.first().map(|(_, speed)| *speed)
 }
 
-/// Sum of the torques that loads apply to a member about x. \[Nm\]
+/// Sum of the torques that loads apply to a member about its axis. \[Nm\]
 fn torque_of<'a>(map: &Map<'a>, values: &Values<'a>, member: Id, speed: Option<f64>) -> Option<f64> {
     let loads = map
         .source
@@ -346,7 +345,7 @@ fn torque_of<'a>(map: &Map<'a>, values: &Values<'a>, member: Id, speed: Option<f
 fn torque<'a>(map: &Map<'a>, values: &Values<'a>, load: &'a Component, speed: Option<f64>) -> Option<f64> {
     let shaft = map.shaft_of.get(&load.id)?;
     if let Some(torque) = values.number(load, "torque_around_u_axis", Quantity::Moment) {
-        return Some(torque * map.frame.sense(map.poses.get(*shaft)?.u));
+        return Some(torque * map.sense(map.members.of(*shaft)?, map.poses.get(*shaft)?.u));
     }
     let speed = speed.filter(|speed| *speed != 0.0)?;
     let power = values.number(load, "power", Quantity::Power)?;

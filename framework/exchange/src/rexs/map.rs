@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::members::Members;
 use super::model::{Component, Id};
-use super::pose::{Frame, Poses, Vector};
+use super::pose::{Frame, Pose, Poses, Vector, cross, dot, sum};
 use super::source::Source;
 
 /// An external force on a member in each load case.
@@ -122,7 +122,75 @@ impl<'a> Map<'a> {
 
     fn is_single_gear(&self, member: Id) -> bool {
         let kind = self.source.component(member).map(|component| component.kind.as_str());
-        kind == Some("cylindrical_gear") && !self.planets.contains(&member) && self.members.parts(member).count() == 1
+        kind.is_some_and(|kind| is_gear(kind) && kind != "ring_gear")
+            && !self.planets.contains(&member)
+            && self.members.parts(member).count() == 1
+    }
+
+    /// The axis of a member that is not parallel to x: a point where positions are zero, and the direction. Planets have that of their carrier.
+    pub fn line(&self, member: Id) -> Option<&Pose> {
+        let stage = self
+            .members
+            .planets
+            .iter()
+            .find(|(_, planets)| planets.contains(&member));
+        let carrier = stage.and_then(|(stage, _)| self.members.carriers.get(stage));
+        let pose = self.poses.get(*carrier.unwrap_or(&member))?;
+        (!self.frame.is_parallel(pose.u)).then_some(pose)
+    }
+
+    /// Position of a point along the axis of a member.
+    pub fn along(&self, member: Id, point: Vector) -> f64 {
+        match self.line(member) {
+            None => self.frame.coordinates(point)[0],
+            Some(line) => dot(sum(point, line.origin, -1.0), line.u),
+        }
+    }
+
+    /// The sense of an axis along that of a member: 1 or -1.
+    pub fn sense(&self, member: Id, u: Vector) -> f64 {
+        match self.line(member) {
+            None => self.frame.sense(u),
+            Some(line) => {
+                if dot(u, line.u) < 0.0 {
+                    -1.0
+                } else {
+                    1.0
+                }
+            }
+        }
+    }
+
+    /// Distance of a point from the axis of a member. \[mm\]
+    pub fn beside(&self, member: Id, point: Vector) -> Option<f64> {
+        let axis = self.poses.get(member)?;
+        let between = sum(point, axis.origin, -1.0);
+        Some(match self.line(member) {
+            None => {
+                let [_, y, z] = self.frame.coordinates(between);
+                y.hypot(z)
+            }
+            Some(line) => {
+                let across = cross(between, line.u);
+                dot(across, across).sqrt()
+            }
+        })
+    }
+
+    /// A bending moment in the two directions across the axis of a member in which gearbox files state it.
+    pub fn bending(&self, member: Id, moment: Vector) -> [f64; 2] {
+        let moment = self.frame.coordinates(moment);
+        let Some(line) = self.line(member) else {
+            return [moment[1] + 0.0, moment[2] + 0.0];
+        };
+        let [x, y, z] = self.frame.coordinates(line.u);
+        let horizontal = x.hypot(y);
+        let up = if horizontal < 1e-9 {
+            [-z, 0.0, 0.0]
+        } else {
+            [-z * x / horizontal, -z * y / horizontal, horizontal]
+        };
+        [dot(moment, cross(up, [x, y, z])) + 0.0, dot(moment, up) + 0.0]
     }
 
     /// The parts of a shaft.
@@ -189,6 +257,14 @@ impl<'a> Map<'a> {
         };
         id(kind, member)
     }
+}
+
+/// True for the types of gears.
+pub fn is_gear(kind: &str) -> bool {
+    matches!(
+        kind,
+        "cylindrical_gear" | "ring_gear" | "bevel_gear" | "worm_gear" | "worm_wheel"
+    )
 }
 
 /// A component in comments: id and name.

@@ -160,7 +160,7 @@ fn kind_of<'a>(source: &Source<'a>, id: Id) -> &'a str {
 }
 
 fn is_gear(source: &Source<'_>, id: Id) -> bool {
-    matches!(kind_of(source, id), "cylindrical_gear" | "ring_gear")
+    super::map::is_gear(kind_of(source, id))
 }
 
 /// True for what can be a part of a member.

@@ -155,6 +155,9 @@ fn own_pose(source: &Source<'_>, component: &Component) -> Pose {
     }
 }
 
+/// Cosine of the angle below which axes are parallel, 0.01 degrees.
+pub const PARALLEL: f64 = 0.999_999_98;
+
 /// The coordinates of gearbox files: x along the shafts, z upwards.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame {
@@ -221,6 +224,6 @@ impl Frame {
 
     /// True if an axis is parallel to the shafts, within 0.01 degrees.
     pub fn is_parallel(&self, u: Vector) -> bool {
-        dot(u, self.x).abs() > 0.999_999_98
+        dot(u, self.x).abs() > PARALLEL
     }
 }

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::draft::{Load, Section, Shaft};
-use super::map::{Map, named};
+use super::draft::{Axis, Load, Section, Shaft};
+use super::map::{Map, is_gear, named};
 use super::model::{Component, Id};
-use super::pose::{Pose, sum};
+use super::pose::{PARALLEL, Pose, dot, sum};
 use super::units::Quantity;
 use crate::codes;
 
@@ -21,7 +21,7 @@ pub fn shafts(map: &Map<'_>) -> Vec<Shaft> {
             .members
             .parts(member)
             .filter_map(|id| source.component(id))
-            .filter(|part| part.id == member || !part.kind.ends_with("gear"))
+            .filter(|part| part.id == member || !is_gear(&part.kind))
             .collect();
         let names: Vec<String> = parts.iter().map(|part| named(part)).collect();
         let mut comment = names.iter().take(6).cloned().collect::<Vec<_>>().join(" + ");
@@ -34,15 +34,18 @@ pub fn shafts(map: &Map<'_>) -> Vec<Shaft> {
         shafts.push(Shaft {
             id: map.member_name(member),
             comment,
-            axis: coordinates.filter(|_| !is_planet).map(|at| [at[1], at[2]]),
+            axis: coordinates.filter(|_| !is_planet).map(|at| match map.line(member) {
+                None => Axis::AlongX([at[1], at[2]]),
+                Some(line) => Axis::Directed(at, map.frame.coordinates(line.u)),
+            }),
             sections: merged(
                 parts
                     .iter()
                     .filter(|part| is_coaxial(map, member, part.id))
-                    .flat_map(|part| sections(map, part))
+                    .flat_map(|part| sections(map, member, part))
                     .collect(),
             ),
-            mass: if map.gravity { mass(map, &parts) } else { None },
+            mass: if map.gravity { mass(map, member, &parts) } else { None },
             loads: loads(map, member),
             unsupported: false,
         });
@@ -52,41 +55,45 @@ pub fn shafts(map: &Map<'_>) -> Vec<Shaft> {
 
 /// Pins of planets are parts of a carrier that are beside its axis.
 fn is_coaxial(map: &Map<'_>, member: Id, part: Id) -> bool {
-    let (Some(member), Some(part)) = (map.poses.get(member), map.poses.get(part)) else {
-        return false;
-    };
-    let [_, y, z] = map.frame.coordinates(sum(part.origin, member.origin, -1.0));
-    y.hypot(z) < 1e-2
+    let beside = map.poses.get(part).and_then(|part| map.beside(member, part.origin));
+    beside.is_some_and(|beside| beside < 1e-2)
 }
 
-/// All shafts have positions, and those of a gearbox are parallel.
+/// All shafts have positions, and planets are parallel to their carrier.
 pub fn check_axes(map: &Map<'_>) {
     for shaft in map.source.components("shaft") {
-        match map.poses.get(shaft.id) {
-            None => map.source.error(
+        let Some(pose) = map.poses.get(shaft.id) else {
+            map.source.error(
                 shaft,
                 codes::REXS_VALUE,
                 "it has no position (support_vector)",
                 "state support_vector, u_axis_vector, w_axis_vector and reference_component_for_position",
-            ),
-            Some(pose) if !map.frame.is_parallel(pose.u) => map.source.error(
+            );
+            continue;
+        };
+        let member = map.members.of(shaft.id);
+        let Some(member) = member.filter(|member| map.planets.contains(member)) else {
+            continue;
+        };
+        let axis = map.line(member).map_or(map.frame.x, |line| line.u);
+        if dot(axis, pose.u).abs() < PARALLEL {
+            map.source.error(
                 shaft,
                 codes::REXS_PART,
-                "its axis is not parallel to that of the first shaft",
-                "only parallel shafts are imported: import the parallel part of the model, and add the others with `axis: { through, direction }`",
-            ),
-            Some(_) => {}
+                "it is a planet whose axis crosses that of its carrier: bevel gears that orbit are not imported",
+                "import the other stages, and add a differential under `differentials`",
+            );
         }
     }
 }
 
-/// Position along x of a coordinate on a shaft.
-pub fn along(map: &Map<'_>, pose: &Pose, coordinate: f64) -> f64 {
-    map.frame.coordinates(sum(pose.origin, pose.u, coordinate))[0]
+/// Position of a coordinate of a shaft along the axis of its member.
+pub fn along(map: &Map<'_>, member: Id, pose: &Pose, coordinate: f64) -> f64 {
+    map.along(member, sum(pose.origin, pose.u, coordinate))
 }
 
 /// The sections of a shaft or plate.
-pub fn sections(map: &Map<'_>, part: &Component) -> Vec<Section> {
+pub fn sections(map: &Map<'_>, member: Id, part: &Component) -> Vec<Section> {
     let source = map.source;
     let Some(pose) = map.poses.get(part.id) else {
         return Vec::new();
@@ -112,7 +119,7 @@ pub fn sections(map: &Map<'_>, part: &Component) -> Vec<Section> {
             ));
             return None;
         }
-        let ends = [start, start + length].map(|at| along(map, pose, at));
+        let ends = [start, start + length].map(|at| along(map, member, pose, at));
         Some(Section {
             from: ends[0].min(ends[1]),
             to: ends[0].max(ends[1]),
@@ -172,7 +179,7 @@ fn merged(mut sections: Vec<Section>) -> Vec<Section> {
 }
 
 /// Mass and its position: of shafts and of what is on them, as far as stated.
-fn mass(map: &Map<'_>, parts: &[&Component]) -> Option<(f64, f64)> {
+fn mass(map: &Map<'_>, member: Id, parts: &[&Component]) -> Option<(f64, f64)> {
     let (mut total, mut moment) = (0.0, 0.0);
     for part in parts {
         let on: Vec<&Component> = map.parts_of(part.id);
@@ -181,11 +188,11 @@ fn mass(map: &Map<'_>, parts: &[&Component]) -> Option<(f64, f64)> {
                 continue;
             };
             let at = if component.kind == "shaft" {
-                let sections = sections(map, component);
+                let sections = sections(map, member, component);
                 let [from, to] = [sections.first()?.from, sections.last()?.to];
                 0.5 * (from + to)
             } else {
-                map.frame.coordinates(map.poses.get(component.id)?.origin)[0]
+                map.along(member, map.poses.get(component.id)?.origin)
             };
             total += mass;
             moment += mass * at;
@@ -223,8 +230,13 @@ pub fn connected(map: &Map<'_>) -> BTreeSet<Id> {
             touch(Some(*shaft));
         }
     }
-    for kind in ["cylindrical_gear", "ring_gear"] {
-        source.components(kind).for_each(|gear| touch(Some(gear.id)));
+    for component in source
+        .model
+        .components
+        .values()
+        .filter(|component| is_gear(&component.kind))
+    {
+        touch(Some(component.id));
     }
     for relation in source.relations("side") {
         touch(relation.role("inner_part"));

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::draft::{Bearing, Draft, Film, Gear, Lubricant, Mesh, Shaft};
+use super::draft::{Axis, Bearing, CrossedMesh, Draft, Film, Gear, Lubricant, Mesh, Shaft};
 
 /// A number as short as it can be written, with at most twelve digits: coordinates are sums, and their last digits are rounding.
 pub fn number(value: f64) -> String {
@@ -21,34 +21,34 @@ pub fn quoted(text: &str) -> String {
 
 /// A flow map of the keys that have values.
 #[derive(Debug, Default)]
-struct Entry(Vec<String>);
+pub struct Entry(Vec<String>);
 
 impl Entry {
-    fn word(mut self, key: &str, value: impl AsRef<str>) -> Self {
+    pub fn word(mut self, key: &str, value: impl AsRef<str>) -> Self {
         self.0.push(format!("{key}: {}", value.as_ref()));
         self
     }
 
-    fn word_if(self, key: &str, value: Option<impl AsRef<str>>) -> Self {
+    pub fn word_if(self, key: &str, value: Option<impl AsRef<str>>) -> Self {
         match value {
             Some(value) => self.word(key, value),
             None => self,
         }
     }
 
-    fn quantity(self, key: &str, value: f64, unit: &str) -> Self {
+    pub fn quantity(self, key: &str, value: f64, unit: &str) -> Self {
         let space = if unit.is_empty() { "" } else { " " };
         self.word(key, format!("{}{space}{unit}", number(value)))
     }
 
-    fn quantity_if(self, key: &str, value: Option<f64>, unit: &str) -> Self {
+    pub fn quantity_if(self, key: &str, value: Option<f64>, unit: &str) -> Self {
         match value {
             Some(value) => self.quantity(key, value, unit),
             None => self,
         }
     }
 
-    fn text(self) -> String {
+    pub fn text(self) -> String {
         if self.0.is_empty() {
             "{}".to_owned()
         } else {
@@ -88,6 +88,7 @@ pub fn gearbox(draft: &Draft) -> String {
     shafts(&mut text, &draft.shafts);
     gears(&mut text, &draft.gears);
     meshes(&mut text, &draft.meshes);
+    crossed(&mut text, &draft.crossed);
     surface(&mut text, draft);
     sets(&mut text, draft);
     couplings(&mut text, draft);
@@ -129,10 +130,18 @@ fn ports(text: &mut String, draft: &Draft) {
 }
 
 fn shafts(text: &mut String, shafts: &[Shaft]) {
-    text.push_str("\n# Axis: y sideways, z upwards; x is the position along all shafts. A planet has no `axis`, because it orbits.\nshafts:\n");
+    let crosses = shafts
+        .iter()
+        .any(|shaft| matches!(shaft.axis, Some(Axis::Directed(..))));
+    text.push_str(if crosses {
+        "\n# Axis: y sideways, z upwards; x is the position along shafts without a `direction`, the distance from `through` that of others. A planet \
+         has no `axis`, because it orbits.\nshafts:\n"
+    } else {
+        "\n# Axis: y sideways, z upwards; x is the position along all shafts. A planet has no `axis`, because it orbits.\nshafts:\n"
+    });
     for shaft in shafts {
         let small = shaft.sections.is_empty() && shaft.loads.is_empty();
-        let axis = shaft.axis.map(|axis| lengths(&axis, "mm"));
+        let axis = shaft.axis.map(axis);
         let unsupported = shaft.unsupported.then_some("none");
         if small {
             let entry = Entry::default()
@@ -178,6 +187,16 @@ fn shafts(text: &mut String, shafts: &[Shaft]) {
     }
 }
 
+fn axis(axis: Axis) -> String {
+    match axis {
+        Axis::AlongX(place) => lengths(&place, "mm"),
+        Axis::Directed(through, direction) => Entry::default()
+            .word("through", lengths(&through, "mm"))
+            .word("direction", format!("[{}]", direction.map(number).join(", ")))
+            .text(),
+    }
+}
+
 fn gears(text: &mut String, gears: &[Gear]) {
     if gears.is_empty() {
         return;
@@ -187,12 +206,13 @@ fn gears(text: &mut String, gears: &[Gear]) {
         let sign = (gear.ring && gear.profile_shift.is_some()).then_some("iso21771");
         let entry = Entry::default()
             .word("shaft", &gear.shaft)
-            .quantity("at", gear.at, "mm")
+            .quantity_if("at", gear.at, "mm")
             .word("z", gear.z.to_string())
             .quantity("facewidth", gear.facewidth, "mm")
             .word_if("kind", gear.ring.then_some("ring"))
             .word_if("mounted", gear.loose.then_some("loose"))
             .word_if("hand", gear.hand)
+            .word_if("faces", gear.faces)
             .quantity_if("profile_shift", gear.profile_shift, "")
             .word_if("profile_shift_sign", sign)
             .quantity_if("tip_diameter", gear.tip_diameter, "mm")
@@ -225,6 +245,25 @@ fn meshes(text: &mut String, meshes: &[Mesh]) {
             .quantity_if("poisson", mesh.poisson, "")
             .word_if("lubricant", mesh.lubricant.as_ref());
         line(text, &mesh.id, entry, &mesh.comment);
+    }
+}
+
+fn crossed(text: &mut String, meshes: &[CrossedMesh]) {
+    for section in ["bevel_meshes", "worm_meshes", "crossed_helical_meshes"] {
+        let of_section: Vec<&CrossedMesh> = meshes.iter().filter(|mesh| mesh.section == section).collect();
+        if of_section.is_empty() {
+            continue;
+        }
+        let _ = writeln!(text, "{section}:");
+        for mesh in of_section {
+            let entry = Entry::default().word("gears", format!("[{}]", mesh.gears.join(", ")));
+            let entry = mesh
+                .keys
+                .iter()
+                .fold(entry, |entry, (key, value)| entry.word(key, value));
+            let entry = entry.word_if("lubricant", mesh.lubricant.as_ref());
+            line(text, &mesh.id, entry, &mesh.comment);
+        }
     }
 }
 
@@ -405,8 +444,28 @@ fn housing(text: &mut String, draft: &Draft) {
 
 fn models(text: &mut String, draft: &Draft) {
     text.push_str(
-        "\n# One loss model for each mechanism: `gearloss models bearing` lists them, `gearloss models --needs FILE` lists their missing inputs.\nmodels:\n  \
-         gear_mesh: { type: iso14179_2 }\n  bearing: { type: skf }\n  #gear_drag: { churning: { type: changenet_2011 } }   # needs level, volume, section and clearance\n  \
+        "\n# One loss model for each mechanism: `gearloss models bearing` lists them, `gearloss models --needs FILE` lists their missing inputs.\nmodels:\n",
+    );
+    if !draft.meshes.is_empty() {
+        text.push_str("  gear_mesh: { type: iso14179_2 }\n");
+    }
+    for (section, model) in [
+        (
+            "bevel_meshes",
+            "bevel_mesh: { type: path_integral, tooth_friction: { type: xu } }",
+        ),
+        ("worm_meshes", "worm_mesh: { type: din_3996 }"),
+        (
+            "crossed_helical_meshes",
+            "crossed_helical_mesh: { type: point_contact, tooth_friction: { type: xu } }",
+        ),
+    ] {
+        if draft.crossed.iter().any(|mesh| mesh.section == section) {
+            let _ = writeln!(text, "  {model}");
+        }
+    }
+    text.push_str(
+        "  bearing: { type: skf }\n  #gear_drag: { churning: { type: changenet_2011 } }   # needs level, volume, section and clearance\n  \
          #seal: { type: iso14179_2 }                          # needs `seals`\n",
     );
     if !draft.sets.is_empty() {

@@ -3,9 +3,12 @@
 //! Gears, shafts and bearings are bodies of revolution about their axes; the outline of one in a view is the hull of its end circles. Bodies
 //! that are nearer to the viewer cover those behind them.
 
+mod cuts;
+
 use super::canvas::{Canvas, Rect, Voice};
 use super::draw::{self, CENTRE, FIXED, LOOSE, PORT, SHAFT, round_length};
 use super::things::{Kind, Part, Symbol, Things};
+use cuts::Cuts;
 use gearloss_framework::transmission::{Axis, Transmission};
 
 /// Width and height of one view. \[px\]
@@ -17,6 +20,8 @@ const BETWEEN: f64 = 64.0;
 const CORNERS: usize = 48;
 /// Length of the arrow of a port. \[px\]
 const ARROW: f64 = 30.0;
+/// Component of a direction in the plane of a view below which its axis is seen from its end.
+const FROM_END: f64 = 0.2;
 /// Radius of a shaft without stated sections, over the largest tip radius.
 const THIN: f64 = 0.09;
 
@@ -92,7 +97,8 @@ pub(super) fn is_needed(transmission: &Transmission) -> bool {
 
 /// Draws both views; the members, gears and parts are those of the unfolded drawing.
 pub(super) fn projected(transmission: &Transmission, things: &Things) -> String {
-    let solids = solids(transmission, things);
+    let mut solids = solids(transmission, things);
+    let cuts = shortened(things, &mut solids);
     let points: Vec<[f64; 3]> = solids.iter().flat_map(Solid::points).collect();
     let extent = |coordinate: usize| {
         let values = points.iter().map(|point| point[coordinate]);
@@ -116,6 +122,7 @@ pub(super) fn projected(transmission: &Transmission, things: &Things) -> String 
             canvas: &mut canvas,
             things,
             axes: transmission.axes(),
+            cuts: &cuts,
             view,
             scale,
         };
@@ -125,11 +132,11 @@ pub(super) fn projected(transmission: &Transmission, things: &Things) -> String 
         canvas.foot(0.0, bottom + 22.0, view.name);
         top = bottom + BETWEEN;
     }
-    foot(&mut canvas, scale);
+    foot(&mut canvas, scale, cuts.any());
     canvas.finish(&format!("Views of {}", transmission.title()))
 }
 
-fn foot(canvas: &mut Canvas, scale: f64) {
+fn foot(canvas: &mut Canvas, scale: f64, cut: bool) {
     let y = canvas.extent().y[1] + 26.0;
     let bar = round_length(90.0 / scale);
     let length = bar * scale;
@@ -143,6 +150,32 @@ fn foot(canvas: &mut Canvas, scale: f64) {
         y + 22.0,
         "Blue gears are fixed to their shaft, amber gears turn freely on it.",
     );
+    if cut {
+        canvas.foot(0.0, y + 40.0, "Long shafts are shortened at the double lines.");
+    }
+}
+
+/// Shortens long bare shafts, so that the gears are large enough to be seen.
+fn shortened(things: &Things, solids: &mut [Solid<'_>]) -> Cuts {
+    let largest = things.wheels.iter().map(|wheel| wheel.radius).fold(0.0, f64::max);
+    let line_of = |what: &What| {
+        let member = match *what {
+            What::Shaft(member) => member,
+            What::Gear(number) => things.wheels[number].member,
+            What::Part(number) => things.parts[number].between.into_iter().flatten().next().unwrap_or(0),
+        };
+        things.members[member].line
+    };
+    let bodies = solids.iter().filter_map(|solid| {
+        let is_gear = matches!(solid.what, What::Gear(_));
+        (!matches!(solid.what, What::Shaft(_))).then(|| (line_of(&solid.what), solid.body.ends, is_gear))
+    });
+    let cuts = Cuts::new(things.lines, bodies, largest);
+    for solid in solids {
+        let line = line_of(&solid.what);
+        solid.body.ends = solid.body.ends.map(|at| cuts.place(line, at));
+    }
+    cuts
 }
 
 /// All bodies, shafts first.
@@ -235,6 +268,7 @@ struct Page<'a> {
     canvas: &'a mut Canvas,
     things: &'a Things,
     axes: &'a [Axis],
+    cuts: &'a Cuts,
     view: &'a View,
     scale: f64,
 }
@@ -272,9 +306,10 @@ impl Page<'_> {
                 let name = &things.members[member].name;
                 self.canvas.open(&format!("shafts.{name}"), name);
                 self.canvas.shape(&corners, SHAFT);
+                self.marks(member, solid, place);
                 self.canvas.close();
                 self.canvas.avoid(room);
-                if !things.ports.iter().any(|port| port.1 == member && port.0 == *name) {
+                if !self.from_end(solid.axis) && !things.ports.iter().any(|port| port.1 == member && port.0 == *name) {
                     self.canvas.word(name.clone(), room, None, Voice::Quiet);
                 }
             }
@@ -305,8 +340,42 @@ impl Page<'_> {
                 }
                 self.canvas.close();
                 self.canvas.avoid(room);
-                self.canvas
-                    .word(draw::label(&own.id, own.count), room, None, Voice::Plain);
+                if !self.from_end(solid.axis) {
+                    self.canvas
+                        .word(draw::label(&own.id, own.count), room, None, Voice::Plain);
+                }
+            }
+        }
+    }
+
+    /// True if an axis is seen from its end: what is on it lies behind each other, and its names are in the other view.
+    fn from_end(&self, axis: &Axis) -> bool {
+        let direction = axis.direction();
+        direction[self.view.right].hypot(direction[self.view.up]) < FROM_END
+    }
+
+    /// Double lines across a shaft where it is shortened.
+    fn marks(&mut self, member: usize, solid: &Solid<'_>, place: &dyn Fn([f64; 3]) -> [f64; 2]) {
+        if self.from_end(solid.axis) {
+            return;
+        }
+        let direction = solid.axis.direction();
+        let flat = direction[self.view.right].hypot(direction[self.view.up]);
+        let [u, v] = [direction[self.view.right] / flat, direction[self.view.up] / flat];
+        let reach = solid.body.radii[0] * self.scale + 4.0;
+        let [from, to] = solid.body.ends;
+        for at in self.cuts.marks(self.things.members[member].line) {
+            if at <= from || at >= to {
+                continue;
+            }
+            let [x, y] = place(solid.axis.point(at));
+            for side in [-3.0, 3.0] {
+                let [x, y] = [x + side * u, y - side * v];
+                let line = [
+                    [x - reach * v - 2.0 * u, y - reach * u + 2.0 * v],
+                    [x + reach * v + 2.0 * u, y + reach * u - 2.0 * v],
+                ];
+                self.canvas.line(&line, CROSS);
             }
         }
     }
@@ -345,7 +414,7 @@ impl Page<'_> {
             &format!("ports.{name}"),
             &format!("port {name} at {}", self.things.members[*member].name),
         );
-        let room = if flat < 0.2 {
+        let room = if flat < FROM_END {
             let [x, y] = place(axis.point(solid.body.ends[1]));
             let radius = solid.body.radii[0] * self.scale + 4.0;
             self.canvas.circle(
@@ -381,7 +450,9 @@ impl Page<'_> {
         };
         self.canvas.close();
         self.canvas.avoid(room);
-        self.canvas.word(name.clone(), room, None, Voice::Loud);
+        if flat >= FROM_END {
+            self.canvas.word(name.clone(), room, None, Voice::Loud);
+        }
     }
 
     /// The end of a shaft that is further from its gears: the second one unless they are nearer to it.

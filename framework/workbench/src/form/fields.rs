@@ -4,7 +4,6 @@ use gearloss_editor::outline::{self, Content, Node};
 use serde::Serialize;
 
 use super::bearings;
-use super::distance;
 use super::layouts::Layout;
 
 /// Fields under one heading.
@@ -62,6 +61,54 @@ pub enum FieldKind {
     /// One of several words.
     Choice,
 }
+
+/// Sections of meshes with the keys, labels and meanings of their fields.
+const MESHES: [(&str, &[(&str, &str, FieldKind, &str)]); 3] = [
+    (
+        "bevel_meshes",
+        &[
+            (
+                "outer_diameter",
+                "Outer diameter of the wheel",
+                FieldKind::Quantity,
+                "of its pitch cone",
+            ),
+            (
+                "spiral_angle",
+                "Spiral angle",
+                FieldKind::Quantity,
+                "in the middle of the face; of hypoid gears that of the pinion",
+            ),
+            (
+                "cutter.radius",
+                "Radius of the cutter",
+                FieldKind::Quantity,
+                "of hypoid gears; determines the pitch cones",
+            ),
+        ],
+    ),
+    (
+        "worm_meshes",
+        &[
+            ("module", "Axial module", FieldKind::Quantity, "of the worm"),
+            (
+                "worm_diameter",
+                "Reference diameter",
+                FieldKind::Quantity,
+                "of the worm",
+            ),
+            ("pressure_angle", "Pressure angle", FieldKind::Quantity, ""),
+        ],
+    ),
+    (
+        "meshes",
+        &[
+            ("normal_module", "Normal module", FieldKind::Quantity, ""),
+            ("pressure_angle", "Pressure angle", FieldKind::Quantity, ""),
+            ("helix_angle", "Helix angle", FieldKind::Quantity, ""),
+        ],
+    ),
+];
 
 /// The value at a path of a document.
 pub(super) fn at<'n>(document: &'n Node, path: &str) -> Option<&'n Node> {
@@ -170,8 +217,12 @@ impl Reader<'_> {
     fn meshes(&self) -> Vec<Group> {
         let mut shown: Vec<String> = Vec::new();
         let mut groups = Vec::new();
-        for mesh in self.ids("meshes") {
-            let gears = match at(self.document, &format!("meshes.{mesh}.gears")).map(|node| &node.content) {
+        let all = MESHES.iter().flat_map(|(section, keys)| {
+            let ids = self.ids(section);
+            ids.into_iter().map(move |mesh| (*section, *keys, mesh))
+        });
+        for (section, keys, mesh) in all {
+            let gears = match at(self.document, &format!("{section}.{mesh}.gears")).map(|node| &node.content) {
                 Some(Content::List(gears)) => gears.iter().filter_map(Node::text).collect::<Vec<_>>(),
                 _ => Vec::new(),
             };
@@ -202,21 +253,29 @@ impl Reader<'_> {
                 }
             }
             shown.extend(new.iter().map(ToString::to_string));
-            let of_mesh = |key: &str, label: &str, help: &str| {
-                self.field(&format!("meshes.{mesh}.{key}"), label, FieldKind::Quantity, help)
-            };
-            fields.push(of_mesh("normal_module", "Normal module", ""));
-            fields.push(of_mesh("pressure_angle", "Pressure angle", ""));
-            fields.push(of_mesh("helix_angle", "Helix angle", ""));
-            let known = self.layout.distances.iter().find(|known| known.mesh == mesh);
-            fields.push(known.map(|known| Field {
-                path: distance(mesh),
-                label: "Centre distance".to_owned(),
-                kind: FieldKind::Quantity,
-                value: format!("{} mm", known.value),
-                help: "follows from the teeth unless it is typed; determines the places of the axes".to_owned(),
-                choices: &[],
-                example: None,
+            for (key, label, kind, help) in keys {
+                fields.push(self.field(&format!("{section}.{mesh}.{key}"), label, *kind, help));
+            }
+            let mut known = self.layout.distances.iter();
+            let known = known.find(|known| known.section == section && known.mesh == mesh);
+            fields.push(known.map(|known| {
+                let (label, help) = if known.key == "offset" {
+                    ("Offset", "of the axes; determines their places")
+                } else {
+                    (
+                        "Centre distance",
+                        "follows from the teeth unless it is typed; determines the places of the axes",
+                    )
+                };
+                Field {
+                    path: known.path(),
+                    label: label.to_owned(),
+                    kind: FieldKind::Quantity,
+                    value: format!("{} mm", known.value),
+                    help: help.to_owned(),
+                    choices: &[],
+                    example: None,
+                }
             }));
             groups.push(group(&format!("Mesh {mesh}: {}", gears.join(" and ")), fields));
         }

@@ -5,9 +5,8 @@ use std::collections::BTreeMap;
 use gearloss_editor::outline::{Content, Node};
 use gearloss_framework::document::{Unit, parse_quantity};
 
-use super::distance;
 use super::fields::at;
-use super::layouts::Layout;
+use super::layouts::{Distance, Layout};
 
 /// Values by path of the field. What was typed never follows.
 pub fn followed(layout: &Layout, document: &Node, values: &BTreeMap<String, String>) -> BTreeMap<String, String> {
@@ -29,10 +28,10 @@ pub fn followed(layout: &Layout, document: &Node, values: &BTreeMap<String, Stri
     }
     for axis in layout.distances {
         // The working pressure angle stays, and with it the sum of the profile shifts over that of the teeth.
-        let was = form.as_in_template(|form| form.reference_distance(axis.mesh));
+        let was = form.as_in_template(|form| form.reference_distance(axis));
         let scaled = |(now, was): (f64, f64)| (now != was).then(|| axis.value * now / was);
-        let value = form.reference_distance(axis.mesh).zip(was).and_then(scaled);
-        form.follow(&distance(axis.mesh), || value.map(millimetres));
+        let value = form.reference_distance(axis).zip(was).and_then(scaled);
+        form.follow(&axis.path(), || value.map(millimetres));
     }
     if let Some([_, planets, ring]) = layout.planetary {
         let path = format!("gears.{ring}.tip_diameter");
@@ -92,10 +91,24 @@ impl Form<'_> {
         Some(module / helix.cos()).filter(|module| module.is_finite() && *module > 0.0)
     }
 
-    /// Centre distance of the reference cylinders of a pair of external gears. \[mm\]
-    fn reference_distance(&self, mesh: &str) -> Option<f64> {
-        let [first, second] = self.gears(mesh)?;
-        Some(0.5 * self.transverse_module(mesh)? * (self.teeth(first)? + self.teeth(second)?))
+    /// Centre distance of the reference cylinders of a pair of external gears, or of a worm and its wheel. \[mm\]
+    fn reference_distance(&self, axis: &Distance) -> Option<f64> {
+        match axis.section {
+            "meshes" => {
+                let [first, second] = self.gears(axis.mesh)?;
+                Some(0.5 * self.transverse_module(axis.mesh)? * (self.teeth(first)? + self.teeth(second)?))
+            }
+            "worm_meshes" => {
+                let of = |key: &str| self.text(&format!("worm_meshes.{}.{key}", axis.mesh));
+                let module = of("module").and_then(length)?;
+                let worm = of("worm_diameter").and_then(length)?;
+                let [_, wheel] = self.gears_of("worm_meshes", axis.mesh)?;
+                let distance = 0.5 * (worm + module * self.teeth(wheel)?);
+                (distance > 0.0 && distance.is_finite()).then_some(distance)
+            }
+            // An offset does not follow from teeth.
+            _ => None,
+        }
     }
 
     /// Reference diameter of a ring in its mesh with planets. \[mm\]
@@ -108,7 +121,11 @@ impl Form<'_> {
     }
 
     fn gears(&self, mesh: &str) -> Option<[&str; 2]> {
-        match &at(self.document, &format!("meshes.{mesh}.gears"))?.content {
+        self.gears_of("meshes", mesh)
+    }
+
+    fn gears_of(&self, section: &str, mesh: &str) -> Option<[&str; 2]> {
+        match &at(self.document, &format!("{section}.{mesh}.gears"))?.content {
             Content::List(gears) => gears.iter().filter_map(Node::text).collect::<Vec<_>>().try_into().ok(),
             _ => None,
         }

@@ -21,11 +21,14 @@ pub struct Layout {
     pub(super) planetary: Option<[&'static str; 3]>,
 }
 
-/// A centre distance, which determines the places of axes.
+/// A distance of axes, which determines their places.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance {
-    /// The mesh in whose group it is shown.
+    /// Section of the mesh in whose group it is shown, and the mesh.
+    pub section: &'static str,
     pub mesh: &'static str,
+    /// Key of the mesh under which it is shown: a centre distance or an offset.
+    pub key: &'static str,
     /// What it is in the template. \[mm\]
     pub value: f64,
     /// Where it is written: a path, for an axis with the number of the coordinate, and how many of it are added there.
@@ -33,7 +36,7 @@ pub struct Distance {
 }
 
 /// All layouts.
-pub const LAYOUTS: [Layout; 6] = [
+pub const LAYOUTS: [Layout; 9] = [
     Layout {
         name: "single-stage",
         about: "Reducer with one helical stage",
@@ -41,6 +44,8 @@ pub const LAYOUTS: [Layout; 6] = [
         point: "--torque \"90 Nm\" --speed \"1500 rpm\"",
         twins: None,
         distances: &[Distance {
+            section: "meshes",
+            key: "centre_distance",
             mesh: "stage",
             value: 98.0,
             cells: &[("shafts.pinion_shaft.axis", Some(0), 1.0)],
@@ -56,11 +61,15 @@ pub const LAYOUTS: [Layout; 6] = [
         twins: None,
         distances: &[
             Distance {
+                section: "meshes",
+                key: "centre_distance",
                 mesh: "first",
                 value: 91.0,
                 cells: &[("shafts.input.axis", Some(0), 1.0)],
             },
             Distance {
+                section: "meshes",
+                key: "centre_distance",
                 mesh: "second",
                 value: 118.0,
                 cells: &[
@@ -80,11 +89,15 @@ pub const LAYOUTS: [Layout; 6] = [
         twins: None,
         distances: &[
             Distance {
+                section: "meshes",
+                key: "centre_distance",
                 mesh: "first",
                 value: 76.0,
                 cells: &[("shafts.input.axis", Some(0), 1.0)],
             },
             Distance {
+                section: "meshes",
+                key: "centre_distance",
                 mesh: "second",
                 value: 101.0,
                 cells: &[
@@ -93,6 +106,8 @@ pub const LAYOUTS: [Layout; 6] = [
                 ],
             },
             Distance {
+                section: "meshes",
+                key: "centre_distance",
                 mesh: "third",
                 value: 141.0,
                 cells: &[
@@ -112,6 +127,8 @@ pub const LAYOUTS: [Layout; 6] = [
         point: "--gear reducing --torque \"60 Nm\" --speed \"3000 rpm\"",
         twins: None,
         distances: &[Distance {
+            section: "meshes",
+            key: "centre_distance",
             mesh: "sun_planet",
             value: 40.5,
             cells: &[
@@ -132,6 +149,8 @@ pub const LAYOUTS: [Layout; 6] = [
         point: "--gear first --torque \"80 Nm\" --speed \"3000 rpm\"",
         twins: None,
         distances: &[Distance {
+            section: "meshes",
+            key: "centre_distance",
             mesh: "M1",
             value: 100.0,
             // The input is above the output, at an angle.
@@ -147,6 +166,8 @@ pub const LAYOUTS: [Layout; 6] = [
         point: "--torque \"400 Nm\" --speed \"1500 rpm\"",
         twins: Some(["left", "right"]),
         distances: &[Distance {
+            section: "meshes",
+            key: "centre_distance",
             mesh: "in_left",
             value: 112.5,
             cells: &[("shafts.left.axis", Some(0), -1.0), ("shafts.right.axis", Some(0), 1.0)],
@@ -154,7 +175,70 @@ pub const LAYOUTS: [Layout; 6] = [
         follows: &[],
         planetary: None,
     },
+    Layout {
+        name: "bevel-helical",
+        about: "Reducer with a spiral bevel stage and a helical stage",
+        text: include_str!("layouts/bevel-helical.yaml"),
+        point: "--torque \"45 Nm\" --speed \"1500 rpm\"",
+        twins: None,
+        distances: &[Distance {
+            section: "meshes",
+            key: "centre_distance",
+            mesh: "helical",
+            value: 123.0,
+            cells: &[
+                ("shafts.intermediate.axis", Some(0), 1.0),
+                ("shafts.input.axis.through", Some(1), 1.0),
+            ],
+        }],
+        follows: &[],
+        planetary: None,
+    },
+    Layout {
+        name: "worm",
+        about: "Worm drive with the worm below its wheel",
+        text: include_str!("layouts/worm.yaml"),
+        point: "--torque \"18 Nm\" --speed \"1500 rpm\"",
+        twins: None,
+        distances: &[Distance {
+            section: "worm_meshes",
+            key: "centre_distance",
+            mesh: "stage",
+            value: 100.0,
+            cells: &[("shafts.wheel_shaft.axis.through", Some(2), 1.0)],
+        }],
+        follows: &[],
+        planetary: None,
+    },
+    Layout {
+        name: "axle",
+        about: "Drive axle: hypoid gears, differential and half shafts",
+        text: include_str!("layouts/axle.yaml"),
+        point: "--torque \"150 Nm\" --speed \"1500 rpm\"",
+        twins: None,
+        distances: &[Distance {
+            section: "bevel_meshes",
+            key: "offset",
+            mesh: "final",
+            value: 15.0,
+            cells: &[
+                ("bevel_meshes.final.offset", None, 1.0),
+                ("shafts.cage.axis.through", Some(2), 1.0),
+                ("shafts.left_shaft.axis.through", Some(2), 1.0),
+                ("shafts.right_shaft.axis.through", Some(2), 1.0),
+            ],
+        }],
+        follows: &[],
+        planetary: None,
+    },
 ];
+
+impl Distance {
+    /// Path of its field.
+    pub fn path(&self) -> String {
+        format!("{}.{}.{}", self.section, self.mesh, self.key)
+    }
+}
 
 impl Layout {
     /// The layout of a name.

@@ -57,7 +57,11 @@ impl NewStudy {
             mesh: transmission
                 .cylindrical_meshes()
                 .next()
-                .map(|(_, path, _)| path.trim_start_matches("meshes.").to_owned()),
+                .map(|(_, path, _)| path.trim_start_matches("meshes.").to_owned())
+                .or_else(|| {
+                    let mut crossed = transmission.crossed_meshes();
+                    crossed.find_map(|(path, _)| path.strip_prefix("bevel_meshes.").map(str::to_owned))
+                }),
             rating: transmission.rating.as_ref().map(|r| [r.torque, r.speed.rpm()]),
             port,
             unfit,

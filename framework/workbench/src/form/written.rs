@@ -8,7 +8,6 @@ use gearloss_framework::document::{Diagnostic, Unit, parse_quantity};
 use serde::Serialize;
 
 use super::bearings::{self, Typed};
-use super::distance;
 use super::fields::{Field, FieldKind, MODE, at, groups};
 use super::followed::followed;
 use super::layouts::Layout;
@@ -53,7 +52,7 @@ pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Wri
         if typed.contains(['\n', '\r']) {
             return wrong("the value has several lines", "write one line");
         }
-        if layout.distances.iter().any(|axis| distance(axis.mesh) == *path) {
+        if layout.distances.iter().any(|axis| axis.path() == *path) {
             continue;
         }
         for path in twins(layout, path) {
@@ -147,7 +146,7 @@ fn not_typed(
     let moves_axes = distances
         .clone()
         .any(|axis| axis.cells.iter().any(|(cell, ..)| cell.starts_with("shafts.")));
-    if path == "shafts" && moves_axes && distances.clone().all(|axis| typed(&distance(axis.mesh))) {
+    if path == "shafts" && moves_axes && distances.clone().all(|axis| typed(&axis.path())) {
         return Vec::new();
     }
     let below = |owner: &str| -> Vec<String> {
@@ -196,7 +195,7 @@ fn axes(
     let mut sums: Vec<(&str, Option<usize>, f64)> = Vec::new();
     let mut is_typed = false;
     for axis in layout.distances {
-        let path = distance(axis.mesh);
+        let path = axis.path();
         let value = match values.get(&path) {
             None => axis.value,
             Some(typed) => {
