@@ -28,7 +28,7 @@ const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 const OPEN: [&str; 6] = ["bound", "set", "terms_w", "value", "model", "limit_values"];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 15] = [
+const OPTIONAL: [&str; 19] = [
     "crossed_stages",
     "lengthwise_sliding_m_s",
     "data",
@@ -44,6 +44,10 @@ const OPTIONAL: [&str; 15] = [
     "loss_difference_band_w",
     "difference_band_w",
     "fitted",
+    "correction",
+    "corrections",
+    "corrected",
+    "corrected_difference",
 ];
 
 /// One file of results with the type of its analysis.

@@ -79,7 +79,11 @@ pub fn document(language: &Language, validated: &Validated<'_>) -> String {
                     let (head, rows) = oil_property::cells(&outcome.oil_property);
                     table(&mut out, &head, rows.into_iter());
                     for (head, rows) in oil_property::parts(&outcome.oil_property) {
-                        table(&mut out, &head.iter().map(String::as_str).collect::<Vec<_>>(), rows.into_iter());
+                        table(
+                            &mut out,
+                            &head.iter().map(String::as_str).collect::<Vec<_>>(),
+                            rows.into_iter(),
+                        );
                     }
                     if !outcome.oil_property.left_out.is_empty() {
                         let _ = writeln!(out, "\nNot judged: {}.", outcome.oil_property.left_out.join("; "));
@@ -274,7 +278,9 @@ pub fn text(language: &Language, validated: &Validated<'_>) -> String {
     ]);
     for (set, results) in &validated.sets {
         for judgement in results {
-            let Some((name, all)) = judgement.closest() else { continue };
+            let Some((name, all)) = judgement.closest() else {
+                continue;
+            };
             let [points, models] = judgement.counts();
             sets.row(vec![
                 set.name.clone(),

@@ -180,7 +180,9 @@ impl Correction {
         }
         let range = |coordinate: Coordinate| {
             let values = points.iter().map(|point| point.coordinate(coordinate));
-            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+                [low.min(x), high.max(x)]
+            })
         };
         let varies = |coordinate: &Coordinate| {
             let [low, high] = range(*coordinate);
@@ -194,7 +196,9 @@ impl Correction {
         } else {
             entry.over.clone()
         };
-        let others = Coordinate::ALL.into_iter().filter(|coordinate| !over.contains(coordinate));
+        let others = Coordinate::ALL
+            .into_iter()
+            .filter(|coordinate| !over.contains(coordinate));
         let within = others.map(|quantity| {
             let [from, to] = range(quantity);
             RangeOfCorrection { quantity, from, to }
@@ -344,7 +348,12 @@ impl CorrectionFrom {
     pub fn take(&self, result: &Value) -> Result<Vec<ReadyCorrection>, Diagnostic> {
         let all = result.get("identifications").and_then(Value::as_array);
         let all = all.ok_or_else(|| self.wrong("it is no result of an identification".to_owned(), AGAIN))?;
-        let named = |of: &Value| of.get("model_set").and_then(Value::as_str).unwrap_or_default().to_owned();
+        let named = |of: &Value| {
+            of.get("model_set")
+                .and_then(Value::as_str)
+                .unwrap_or_default()
+                .to_owned()
+        };
         let with: Vec<(String, &Value)> = all
             .iter()
             .filter_map(|of| Some((named(of), of.get("correction")?)))
@@ -470,7 +479,11 @@ mod tests {
 
     #[test]
     fn one_temperature_is_a_range_and_several_are_a_coordinate() {
-        let near = Correction::fit(&CorrectionEntry::default(), "one", points(|i| 80.0 + 0.1 * (i % 3) as f64));
+        let near = Correction::fit(
+            &CorrectionEntry::default(),
+            "one",
+            points(|i| 80.0 + 0.1 * (i % 3) as f64),
+        );
         let near = near.unwrap().unwrap();
         assert_eq!(near.over, [Coordinate::Torque, Coordinate::Speed]);
         assert_eq!((near.within[0].from, near.within[0].to), (80.0, 80.2));
@@ -481,14 +494,24 @@ mod tests {
         assert!(found.band[0] < found.torque && found.torque < found.band[1]);
         assert_eq!(at(100.0, 1000.0, 79.0), None);
         assert_eq!(at(300.0, 1000.0, 80.1), None);
-        let far = Correction::fit(&CorrectionEntry::default(), "one", points(|i| 40.0 + 10.0 * (i % 3) as f64));
+        let far = Correction::fit(
+            &CorrectionEntry::default(),
+            "one",
+            points(|i| 40.0 + 10.0 * (i % 3) as f64),
+        );
         assert_eq!(far.unwrap().unwrap().over.len(), 3);
-        assert!(Correction::fit(&CorrectionEntry::default(), "one", Vec::new()).unwrap().is_none());
+        assert!(
+            Correction::fit(&CorrectionEntry::default(), "one", Vec::new())
+                .unwrap()
+                .is_none()
+        );
     }
 
     #[test]
     fn a_record_is_read_from_the_result_that_contains_it() {
-        let record = Correction::fit(&CorrectionEntry::default(), "one", points(|_| 80.0)).unwrap().unwrap();
+        let record = Correction::fit(&CorrectionEntry::default(), "one", points(|_| 80.0))
+            .unwrap()
+            .unwrap();
         let text = serde_json::json!({ "identifications": [{ "model_set": "iso", "correction": [record] }, { "model_set": "skf" }] });
         let of = |model_set: Option<&str>| CorrectionFrom {
             file: Some("fit.json".to_owned()),
@@ -503,13 +526,23 @@ mod tests {
         let fault = |file: CorrectionFrom, bytes: &[u8]| file.read(bytes).unwrap_err();
         assert!(fault(of(Some("isi")), &bytes).message.contains("`isi`"));
         assert!(fault(of(None), b"{").message.contains("no JSON"));
-        assert!(fault(of(None), b"{}").message.contains("no result of an identification"));
-        assert!(fault(of(None), br#"{"identifications":[{"model_set":"a"}]}"#).message.contains("no correction"));
+        assert!(
+            fault(of(None), b"{}")
+                .message
+                .contains("no result of an identification")
+        );
+        assert!(
+            fault(of(None), br#"{"identifications":[{"model_set":"a"}]}"#)
+                .message
+                .contains("no correction")
+        );
     }
 
     #[test]
     fn a_correction_belongs_to_its_physics() {
-        let record = Correction::fit(&CorrectionEntry::default(), "one", points(|_| 80.0)).unwrap().unwrap();
+        let record = Correction::fit(&CorrectionEntry::default(), "one", points(|_| 80.0))
+            .unwrap()
+            .unwrap();
         let ready = record.ready().unwrap();
         let solved = |factor: f64| -> Vec<Option<f64>> {
             let torque = |point: &PointOfCorrection| Some(factor * point.calculated_nm);

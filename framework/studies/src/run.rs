@@ -118,7 +118,8 @@ impl<'a> StudyRun<'a> {
             self.found().insert(then.set.to_owned(), values);
         }
         if let Some(corrections) = outcome.get::<IdentifyOutcome>().and_then(IdentifyOutcome::corrections) {
-            self.found().insert(format!("{CORRECTION_OF}{}", engine.name), corrections);
+            self.found()
+                .insert(format!("{CORRECTION_OF}{}", engine.name), corrections);
         }
         Ok(outcome)
     }

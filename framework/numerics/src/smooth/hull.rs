@@ -57,7 +57,9 @@ impl Hull {
         let from: Vec<DVector<f64>> = self.points.iter().map(|point| point - place).collect();
         let nearest = |to: &DVector<f64>| {
             let along = |i: &usize| from[*i].dot(to);
-            (0..from.len()).min_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or(0)
+            (0..from.len())
+                .min_by(|a, b| along(a).total_cmp(&along(b)))
+                .unwrap_or(0)
         };
         let norm = |i: &usize| from[*i].norm_squared();
         let start = (0..from.len()).min_by(|a, b| norm(a).total_cmp(&norm(b))).unwrap_or(0);
@@ -67,7 +69,8 @@ impl Hull {
             let at = combined(&from, &corners, &weights);
             let square = at.norm_squared();
             let next = nearest(&at);
-            if square <= NEAR * NEAR * 1e-2 || from[next].dot(&at) >= square * (1.0 - 1e-12) || corners.contains(&next) {
+            if square <= NEAR * NEAR * 1e-2 || from[next].dot(&at) >= square * (1.0 - 1e-12) || corners.contains(&next)
+            {
                 return square.sqrt();
             }
             corners.push(next);
@@ -80,7 +83,8 @@ impl Hull {
                     weights = affine;
                     break;
                 }
-                let share = |(old, new): (&f64, &f64)| (*new <= NO_WEIGHT).then(|| old / (old - new).max(f64::MIN_POSITIVE));
+                let share =
+                    |(old, new): (&f64, &f64)| (*new <= NO_WEIGHT).then(|| old / (old - new).max(f64::MIN_POSITIVE));
                 let step = weights.iter().zip(&affine).filter_map(share).fold(1.0, f64::min);
                 for (weight, affine) in weights.iter_mut().zip(&affine) {
                     *weight += step * (affine - *weight);
@@ -139,7 +143,14 @@ mod tests {
     #[test]
     fn a_triangle_contains_what_is_inside_and_on_its_faces() {
         let hull = Hull::new(&[vec![0.0, 0.0], vec![4.0, 0.0], vec![0.0, 300.0]]).unwrap();
-        for inside in [[1.0, 1.0], [0.0, 0.0], [4.0, 0.0], [2.0, 150.0], [0.0, 100.0], [1.0, 224.9]] {
+        for inside in [
+            [1.0, 1.0],
+            [0.0, 0.0],
+            [4.0, 0.0],
+            [2.0, 150.0],
+            [0.0, 100.0],
+            [1.0, 224.9],
+        ] {
             assert!(hull.contains(&inside), "{inside:?}");
         }
         for outside in [[2.1, 150.0], [-0.01, 1.0], [4.0, 300.0], [0.0, 301.0], [f64::NAN, 0.0]] {

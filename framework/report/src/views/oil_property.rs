@@ -1,6 +1,8 @@
 //! Laws of a property of oils against values: ratios by law, oil and temperature, lines over temperature.
 
-use gearloss_studies::analyses::oil_property::{CellOfOil, LawOfProperty, OilPropertyOutcome, PropertyOfOils, ValueOfOil};
+use gearloss_studies::analyses::oil_property::{
+    CellOfOil, LawOfProperty, OilPropertyOutcome, PropertyOfOils, ValueOfOil,
+};
 use gearloss_studies::analyses::validation::CellOfRegime;
 
 use super::validation::ratio_text;
@@ -30,10 +32,18 @@ fn show(outcome: &OilPropertyOutcome, page: &mut Page) {
         ));
         for law in &found.laws {
             let detail = format!("{} to {}", ratio_text(law.all.least), ratio_text(law.all.greatest));
-            page.key_figure(&format!("calculated over measured, {}", law.name), ratio_text(law.all.ratio), "-", detail);
+            page.key_figure(
+                &format!("calculated over measured, {}", law.name),
+                ratio_text(law.all.ratio),
+                "-",
+                detail,
+            );
         }
     }
-    page.line(format!("{name}: calculated over measured {words} at {} points of {}", found.points, found.file));
+    page.line(format!(
+        "{name}: calculated over measured {words} at {} points of {}",
+        found.points, found.file
+    ));
     let (head, rows) = cells(found);
     page.table(filled(&head, rows));
     for line in &found.left_out {
@@ -57,7 +67,9 @@ fn filled(head: &[&str], rows: Vec<Vec<String>>) -> TextTable {
 
 /// The laws at all values: names of the columns, and a row for each law.
 pub fn cells(found: &PropertyOfOils) -> (Vec<&'static str>, Vec<Vec<String>>) {
-    let head = vec!["law", "points", "ratio", "least", "greatest", "bias %", "rms %", "max %", "in band"];
+    let head = vec![
+        "law", "points", "ratio", "least", "greatest", "bias %", "rms %", "max %", "in band",
+    ];
     let row = |law: &LawOfProperty| {
         vec![
             law.name.clone(),
@@ -76,23 +88,34 @@ pub fn cells(found: &PropertyOfOils) -> (Vec<&'static str>, Vec<Vec<String>>) {
 
 /// The ratio of each law by temperature and by oil, where there are several.
 pub fn parts(found: &PropertyOfOils) -> Vec<Rows> {
-    let Some(first) = found.laws.first() else { return Vec::new() };
+    let Some(first) = found.laws.first() else {
+        return Vec::new();
+    };
     let ends = |regime: &CellOfRegime| {
         let [from, to] = [regime.from, regime.to].map(short);
-        if from == to { format!("{from} degC") } else { format!("{from} to {to} degC") }
+        if from == to {
+            format!("{from} degC")
+        } else {
+            format!("{from} to {to} degC")
+        }
     };
     let head = |what: &str, names: Vec<String>| {
         let first = format!("ratio by {what}");
         std::iter::once(first).chain(names).collect::<Vec<String>>()
     };
     let row = |law: &LawOfProperty, ratios: Vec<f64>| {
-        std::iter::once(law.name.clone()).chain(ratios.into_iter().map(precise)).collect::<Vec<String>>()
+        std::iter::once(law.name.clone())
+            .chain(ratios.into_iter().map(precise))
+            .collect::<Vec<String>>()
     };
     let mut all = Vec::new();
     if first.regimes.len() > 1 {
         let rows = found.laws.iter();
         let rows = rows.map(|law| row(law, law.regimes.iter().map(|regime| regime.cell.ratio).collect()));
-        all.push((head("oil temperature", first.regimes.iter().map(ends).collect()), rows.collect()));
+        all.push((
+            head("oil temperature", first.regimes.iter().map(ends).collect()),
+            rows.collect(),
+        ));
     }
     if first.oils.len() > 1 {
         let rows = found.laws.iter();
@@ -105,7 +128,11 @@ pub fn parts(found: &PropertyOfOils) -> Vec<Rows> {
 
 /// A ratio with three decimals: laws of oils are good to a percent.
 fn precise(ratio: f64) -> String {
-    if (0.1..10.0).contains(&ratio) { number(Some(ratio), 3) } else { short(ratio) }
+    if (0.1..10.0).contains(&ratio) {
+        number(Some(ratio), 3)
+    } else {
+        short(ratio)
+    }
 }
 
 fn figure(name: &str, found: &PropertyOfOils) -> Figure {
@@ -114,7 +141,10 @@ fn figure(name: &str, found: &PropertyOfOils) -> Figure {
         order.sort_by(|a, b| a.oil_temperature_degc.total_cmp(&b.oil_temperature_degc));
         Line {
             name: law.name.clone(),
-            points: order.iter().map(|value| Some((value.oil_temperature_degc, value.ratio))).collect(),
+            points: order
+                .iter()
+                .map(|value| Some((value.oil_temperature_degc, value.ratio)))
+                .collect(),
             stroke: Stroke::Dots,
         }
     };

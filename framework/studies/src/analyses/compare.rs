@@ -185,7 +185,12 @@ impl Analysis for CompareEntry {
         }
         if self.correction.is_some() && self.data.is_none() {
             let message = "a correction is of measured losses, and this comparison is one of sets";
-            return Err(cx.wrong_as(codes::CORRECTION, &format!("{path}.correction"), message, "delete it, or write `data`"));
+            return Err(cx.wrong_as(
+                codes::CORRECTION,
+                &format!("{path}.correction"),
+                message,
+                "delete it, or write `data`",
+            ));
         }
         match (&self.grid, &self.drive, &self.base, &self.data) {
             (None, None, None, Some(_)) if !self.variants.is_empty() => {

@@ -295,7 +295,12 @@ impl MapEntry {
         if all.is_empty() {
             let message = format!("`{}` has given no correction", of.name());
             let help = "correct that analysis, and place it before this one";
-            return Err(engine.wrong_as(codes::NOT_FOUND_YET, &format!("{}.correction", engine.path()), message, help));
+            return Err(engine.wrong_as(
+                codes::NOT_FOUND_YET,
+                &format!("{}.correction", engine.path()),
+                message,
+                help,
+            ));
         }
         for map in maps {
             let gear = &map.run.points.gear;

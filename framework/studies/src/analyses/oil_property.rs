@@ -259,7 +259,10 @@ impl Analysis for OilPropertyEntry {
 
     fn reduce<'a>(&'a self, plan: OilPropertyPlan<'a>, engine: &Engine<'a>) -> Result<OilPropertyOutcome, Stopped> {
         let (name, unit, factor) = self.property.measure();
-        let names = plan.oils.first().map_or_else(Vec::new, |(_, oil)| self.property.laws(oil));
+        let names = plan
+            .oils
+            .first()
+            .map_or_else(Vec::new, |(_, oil)| self.property.laws(oil));
         let (mut laws, mut left_out) = (Vec::new(), Vec::new());
         for (k, (law, _)) in names.into_iter().enumerate() {
             match self.judge(&plan, k, factor) {
@@ -268,7 +271,11 @@ impl Analysis for OilPropertyEntry {
             }
         }
         if laws.is_empty() {
-            let message = format!("no law of the {} has values: {}", name.replace('_', " "), left_out.join("; "));
+            let message = format!(
+                "no law of the {} has values: {}",
+                name.replace('_', " "),
+                left_out.join("; ")
+            );
             return Err(engine.wrong(&engine.path(), message, "state the property of the lubricants"));
         }
         laws.sort_by(|a, b| a.all.rms_percent.total_cmp(&b.all.rms_percent));
@@ -296,10 +303,20 @@ fn oils(cx: &Planner<'_>, built: &Built<'_>) -> Result<Vec<(String, LubricantEnt
     let all = built.resolved.value.get("lubricants").and_then(Value::as_object);
     let read = |(name, value): (&String, &Value)| {
         let oil = serde_json::from_value(value.clone());
-        let oil = oil.map_err(|e| cx.wrong(&cx.path(), format!("the lubricant `{name}` cannot be read: {e}"), "report this"));
+        let oil = oil.map_err(|e| {
+            cx.wrong(
+                &cx.path(),
+                format!("the lubricant `{name}` cannot be read: {e}"),
+                "report this",
+            )
+        });
         Ok((name.clone(), oil?))
     };
-    let oils = all.into_iter().flatten().map(read).collect::<Result<Vec<_>, Stopped>>()?;
+    let oils = all
+        .into_iter()
+        .flatten()
+        .map(read)
+        .collect::<Result<Vec<_>, Stopped>>()?;
     if oils.is_empty() {
         return Err(cx.wrong(&cx.path(), "the gearbox has no lubricants", "add `lubricants` to it"));
     }
@@ -316,7 +333,12 @@ impl OilPropertyEntry {
             cx.wrong_as(codes::DATA, &place, message, "file names are relative to the study")
         })?;
         cx.keep_input(&self.file, &bytes);
-        let at = |found: Diagnostic| cx.found(vec![Diagnostic { path: place.clone(), ..found }]);
+        let at = |found: Diagnostic| {
+            cx.found(vec![Diagnostic {
+                path: place.clone(),
+                ..found
+            }])
+        };
         let columns = Columns::of_file(&self.file, &bytes).map_err(at)?;
         let temperature = Quantity::new("temperature", Measure::Of(Dimension::Temperature), "degC");
         let temperatures = columns.numbers(&temperature).map_err(at)?;
@@ -333,7 +355,11 @@ impl OilPropertyEntry {
                     Some(near) => format!("write `{near}`"),
                     None => format!("the lubricants of the gearbox are {}", known.join(", ")),
                 };
-                return Err(at(columns.wrong(Some(row), &format!("there is no lubricant `{oil}`"), help)));
+                return Err(at(columns.wrong(
+                    Some(row),
+                    &format!("there is no lubricant `{oil}`"),
+                    help,
+                )));
             }
             all.push(Given {
                 line: columns.line(row),
@@ -403,7 +429,10 @@ impl OilPropertyEntry {
         Some(LawOfProperty {
             all: cell(&(0..at.len()).collect::<Vec<_>>())?,
             regimes: bands(&temperatures).into_iter().filter_map(regime).collect(),
-            oils: distinct(at.iter().map(|value| &value.oil)).into_iter().filter_map(of_oil).collect(),
+            oils: distinct(at.iter().map(|value| &value.oil))
+                .into_iter()
+                .filter_map(of_oil)
+                .collect(),
             name,
             at,
         })
@@ -424,12 +453,20 @@ impl Outcome for OilPropertyOutcome {
             .text("law", "Law", |(law, _)| &law.name)
             .number("line", "-", "Line in the file", |(_, value)| value.line as f64)
             .text("oil", "Lubricant", |(_, value)| &value.oil)
-            .number("oil_temperature_degc", "degC", "Temperature", |(_, value)| value.oil_temperature_degc)
+            .number("oil_temperature_degc", "degC", "Temperature", |(_, value)| {
+                value.oil_temperature_degc
+            })
             .number("measured", found.unit, "Value of the file", |(_, value)| value.measured)
-            .number("calculated", found.unit, "Value of the law", |(_, value)| value.calculated)
+            .number("calculated", found.unit, "Value of the law", |(_, value)| {
+                value.calculated
+            })
             .number("ratio", "-", "Calculated over measured", |(_, value)| value.ratio)
-            .number("ratio_low", "-", "Lower end of its 95 % band", |(_, value)| value.band.map(|band| band[0]))
-            .number("ratio_high", "-", "Upper end of its 95 % band", |(_, value)| value.band.map(|band| band[1]))
+            .number("ratio_low", "-", "Lower end of its 95 % band", |(_, value)| {
+                value.band.map(|band| band[0])
+            })
+            .number("ratio_high", "-", "Upper end of its 95 % band", |(_, value)| {
+                value.band.map(|band| band[1])
+            })
             .finish();
         vec![values]
     }

@@ -301,7 +301,9 @@ impl Analysis for ValidationEntry {
     fn reduce<'a>(&'a self, plan: ValidationPlan<'a>, engine: &Engine<'a>) -> Result<ValidationOutcome, Stopped> {
         let mut left_out = plan.left_out.clone();
         let film = Film::new(engine, self, &plan);
-        let found = engine.parts(&plan.candidates, |candidate| self.judge(engine, &plan, candidate, &film))?;
+        let found = engine.parts(&plan.candidates, |candidate| {
+            self.judge(engine, &plan, candidate, &film)
+        })?;
         let mut models = Vec::new();
         for (candidate, found) in plan.candidates.iter().zip(found) {
             match found {
@@ -421,7 +423,9 @@ impl ValidationEntry {
         film: &Film,
     ) -> Result<Option<FittedFactor>, Stopped> {
         let Some(name) = &self.leave_out else { return Ok(None) };
-        let of = coordinates(measured, at, film).into_iter().find(|(over, ..)| over == name);
+        let of = coordinates(measured, at, film)
+            .into_iter()
+            .find(|(over, ..)| over == name);
         let Some((_, _, values)) = of else {
             let message =
                 format!("`{name}` does not vary between the points, so that none of its values can be left out");

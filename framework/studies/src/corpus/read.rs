@@ -202,9 +202,7 @@ fn judging(language: &Language, files: &SharedSource, file: &Path) -> Result<Stu
     let study = Study::read_from(language, files, file)?;
     study.check(language)?;
     let judging = study.entry.analyses.iter();
-    let mut judging = judging
-        .filter(|(_, analysis)| Judgement::is_of(analysis))
-        .peekable();
+    let mut judging = judging.filter(|(_, analysis)| Judgement::is_of(analysis)).peekable();
     if judging.peek().is_none() {
         let help = "write an analysis with `type: validation`, or `oil_property` for properties of oils";
         return Err(study.findings(vec![

@@ -56,8 +56,16 @@ impl Judgement {
     /// The closest model or law with its cell.
     pub fn closest(&self) -> Option<(&str, &Cell)> {
         match self {
-            Self::Losses(outcome) => outcome.validation.models.first().map(|model| (model.name.as_str(), &model.all)),
-            Self::Property(outcome) => outcome.oil_property.laws.first().map(|law| (law.name.as_str(), &law.all)),
+            Self::Losses(outcome) => outcome
+                .validation
+                .models
+                .first()
+                .map(|model| (model.name.as_str(), &model.all)),
+            Self::Property(outcome) => outcome
+                .oil_property
+                .laws
+                .first()
+                .map(|law| (law.name.as_str(), &law.all)),
         }
     }
 }

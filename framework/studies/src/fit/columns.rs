@@ -173,7 +173,12 @@ impl Columns {
             let message = format!("no single column `{name}`; there are: {}", self.table.names.join(", "));
             return Err(self.wrong(None, &message, format!("name one column `{name}`")));
         };
-        Ok(self.table.rows.iter().map(|(_, cells)| cells[column].as_str()).collect())
+        Ok(self
+            .table
+            .rows
+            .iter()
+            .map(|(_, cells)| cells[column].as_str())
+            .collect())
     }
 
     /// The number of the line of a row (index from zero).

@@ -151,11 +151,17 @@ pub(super) fn corrections(cx: &Planner<'_>, entry: &CompareEntry) -> Result<Opti
     let path = format!("{}.correction", cx.path());
     let wrong = |message: &str, help: &str| Err(cx.wrong_as(codes::CORRECTION, &path, message, help));
     if !matches!(entry.quantity, Quantity::Loss | Quantity::LossTorque) {
-        return wrong("a correction is of the loss torque", "write `quantity: loss` or `quantity: loss_torque`");
+        return wrong(
+            "a correction is of the loss torque",
+            "write `quantity: loss` or `quantity: loss_torque`",
+        );
     }
     if entry.against.len() > 1 || !entry.bind.is_empty() {
         let help = "give it a comparison of its own: with one set, and without `bind`";
-        return wrong("a correction belongs to the identified model set, and not to several sets or bound values", help);
+        return wrong(
+            "a correction belongs to the identified model set, and not to several sets or bound values",
+            help,
+        );
     }
     cx.corrections(&path, from).map(Some)
 }
@@ -180,7 +186,10 @@ fn keep_corrections(
             continue;
         };
         ready.check(engine, &path, run)?;
-        let own = comparison.points.iter().filter(|point| point.gear == *gear && point.model.is_some());
+        let own = comparison
+            .points
+            .iter()
+            .filter(|point| point.gear == *gear && point.model.is_some());
         let corrected = own.clone().filter(|point| point.corrected.is_some()).count();
         engine.keep_correction(UsedCorrection {
             inside: corrected,
@@ -206,7 +215,10 @@ pub(super) fn compare<'a>(
     let solved = plan.solve(engine)?;
     let measured = &plan.measured;
     let corrections = corrections.unwrap_or_default();
-    let all: Vec<DataComparison> = solved.iter().map(|s| comparison(entry, measured, s, corrections)).collect();
+    let all: Vec<DataComparison> = solved
+        .iter()
+        .map(|s| comparison(entry, measured, s, corrections))
+        .collect();
     for of_set in solved.iter().zip(&all) {
         keep_corrections(engine, entry, corrections, of_set)?;
     }
@@ -277,16 +289,23 @@ fn compared(
 ) -> ComparedPoint {
     let seen = Seen::without_rig(measured, row, point);
     let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.value(point));
-    let corrected = ready.and_then(|ready| ready.of(point)).zip(model).map(|(correction, model)| {
-        // A loss is the torque over the speed of the reference port.
-        let factor = if entry.quantity == Quantity::Loss { point.reference_speed.abs() } else { 1.0 };
-        let whole = model + correction.torque * factor;
-        CorrectedPoint {
-            model: whole,
-            band: correction.band.map(|torque| model + torque * factor),
-            difference: saw.and_then(|saw| entry.quantity.difference(entry.difference, saw, whole)),
-        }
-    });
+    let corrected = ready
+        .and_then(|ready| ready.of(point))
+        .zip(model)
+        .map(|(correction, model)| {
+            // A loss is the torque over the speed of the reference port.
+            let factor = if entry.quantity == Quantity::Loss {
+                point.reference_speed.abs()
+            } else {
+                1.0
+            };
+            let whole = model + correction.torque * factor;
+            CorrectedPoint {
+                model: whole,
+                band: correction.band.map(|torque| model + torque * factor),
+                difference: saw.and_then(|saw| entry.quantity.difference(entry.difference, saw, whole)),
+            }
+        });
     let losses = seen.loss.zip(point.loss);
     // A loss is zero at standstill whatever the model is.
     let still = entry.quantity == Quantity::Loss
@@ -367,14 +386,34 @@ pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), 
     let difference_name = format!("difference_{}", quantity.unit(difference));
     let mut points = all.iter().flat_map(|c| &c.points);
     let several = points.any(|p| p.file.is_some());
-    let all_corrected = all.iter().flat_map(|c| &c.points).any(|point| point.corrected.is_some());
+    let all_corrected = all
+        .iter()
+        .flat_map(|c| &c.points)
+        .any(|point| point.corrected.is_some());
     let corrected: Vec<(String, &'static str, &'static str, ValueOfCorrected)> = if all_corrected {
         let (of, of_difference) = (unit(quantity), quantity.words(difference).1);
         vec![
-            (format!("corrected_{what}"), of, "Quantity with the set and a smooth correction", |c| Some(c.model)),
-            (format!("corrected_{what}_low"), of, "Lower end of its 95 % band", |c| Some(c.band[0])),
-            (format!("corrected_{what}_high"), of, "Upper end of its 95 % band", |c| Some(c.band[1])),
-            (format!("corrected_{difference_name}"), of_difference, "Corrected model minus measurement", |c| c.difference),
+            (
+                format!("corrected_{what}"),
+                of,
+                "Quantity with the set and a smooth correction",
+                |c| Some(c.model),
+            ),
+            (format!("corrected_{what}_low"), of, "Lower end of its 95 % band", |c| {
+                Some(c.band[0])
+            }),
+            (
+                format!("corrected_{what}_high"),
+                of,
+                "Upper end of its 95 % band",
+                |c| Some(c.band[1]),
+            ),
+            (
+                format!("corrected_{difference_name}"),
+                of_difference,
+                "Corrected model minus measurement",
+                |c| c.difference,
+            ),
         ]
     } else {
         Vec::new()
@@ -412,7 +451,9 @@ pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), 
             |(_, point)| point.loss_difference_percent_of_loss,
         )
         .each(corrected.iter(), |table, (name, unit, meaning, value)| {
-            table.number(name.as_str(), *unit, *meaning, |(_, point)| point.corrected.and_then(|corrected| value(&corrected)))
+            table.number(name.as_str(), *unit, *meaning, |(_, point)| {
+                point.corrected.and_then(|corrected| value(&corrected))
+            })
         })
         .number(
             format!("accuracy_{what}"),

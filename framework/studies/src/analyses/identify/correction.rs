@@ -51,7 +51,11 @@ pub fn fit(
     }
     let mut corrections = Vec::new();
     for gear in distinct(all.iter().map(|(gear, _)| gear)) {
-        let own = all.iter().filter(|(of, _)| of == gear).map(|(_, point)| *point).collect();
+        let own = all
+            .iter()
+            .filter(|(of, _)| of == gear)
+            .map(|(_, point)| *point)
+            .collect();
         let fitted = Correction::fit(entry, gear, own);
         let help = "thin the rows out with `rows` or `hold_out`";
         corrections.extend(fitted.map_err(|reason| cx.wrong_as(codes::CORRECTION, &path, reason, help))?);

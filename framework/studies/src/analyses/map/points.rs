@@ -41,12 +41,20 @@ type PointWith<'p> = (&'p PointResult, Option<Corrected>);
 
 /// Columns of a correction.
 pub const CORRECTED: [(&str, &str, &str); 6] = [
-    ("correction_nm", "Nm", "Smooth correction of the loss torque; empty outside of the measured region"),
+    (
+        "correction_nm",
+        "Nm",
+        "Smooth correction of the loss torque; empty outside of the measured region",
+    ),
     ("correction_low_nm", "Nm", "Lower end of its 95 % band"),
     ("correction_high_nm", "Nm", "Upper end of its 95 % band"),
     ("corrected_loss_torque_nm", "Nm", "Loss torque with the correction"),
     ("corrected_loss_w", "W", "Loss with the correction"),
-    ("corrected_loss_half_band_w", "W", "Half-width of its 95 % band, of the correction alone"),
+    (
+        "corrected_loss_half_band_w",
+        "W",
+        "Half-width of its 95 % band, of the correction alone",
+    ),
 ];
 
 /// Values of the columns of a correction.
@@ -55,7 +63,14 @@ fn corrected((point, correction): &PointWith<'_>) -> Option<[f64; 6]> {
     let [low, high] = correction.band;
     let speed = point.reference_speed.abs();
     let whole = torque + correction.torque;
-    Some([correction.torque, low, high, whole, whole * speed, 0.5 * (high - low) * speed])
+    Some([
+        correction.torque,
+        low,
+        high,
+        whole,
+        whole * speed,
+        0.5 * (high - low) * speed,
+    ])
 }
 
 impl RowsOf {
@@ -101,12 +116,16 @@ impl RowsOf {
             .number("torque_nm", "Nm", "Torque", |(p, _)| p.torque)
             .number("speed_rpm", "rpm", "Speed", |(p, _)| tidy(p.speed * RPM))
             .number("oil_temperature_degc", "degC", "Oil temperature", |(p, _)| p.oil)
-            .number("surface_temperature_degc", "degC", "Surface temperature", |(p, _)| p.surface)
+            .number("surface_temperature_degc", "degC", "Surface temperature", |(p, _)| {
+                p.surface
+            })
             .text("balance", "Status of the heat balance", |(p, _)| {
                 p.balance.map_or("", thermal::Outcome::name)
             })
             .text("status", "State of the transmission", |(p, _)| p.status.name())
-            .number("efficiency", "-", "Output power over input power", |(p, _)| p.efficiency)
+            .number("efficiency", "-", "Output power over input power", |(p, _)| {
+                p.efficiency
+            })
             .number("loss_w", "W", "Sum of all losses", |(p, _)| p.loss)
             .number(
                 "loss_torque_nm",
@@ -125,7 +144,9 @@ impl RowsOf {
                 })
             })
             .each(columns.iter().enumerate(), |table, (i, (name, unit, meaning))| {
-                table.number(*name, *unit, *meaning, |row: &PointWith<'_>| corrected(row).map(|values| values[i]))
+                table.number(*name, *unit, *meaning, |row: &PointWith<'_>| {
+                    corrected(row).map(|values| values[i])
+                })
             })
             .each(self.limits.iter().enumerate(), |table, (i, limit)| {
                 table.number(limit.key(), limit.unit, limit.words.clone(), |(p, _)| {

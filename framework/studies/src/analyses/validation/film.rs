@@ -51,7 +51,9 @@ impl Film {
         let of_symbol = |symbol: &'static str| {
             let of_row = |(place, gear, point): &(usize, String, _)| {
                 let (t, ratings) = (&solved.transmissions[*place], ratings[*place].as_ref()?);
-                rows.with_solution(t, gear, point, |solution| least(ratings, t, solution, &plan.judged, symbol))?
+                rows.with_solution(t, gear, point, |solution| {
+                    least(ratings, t, solution, &plan.judged, symbol)
+                })?
             };
             let ratios: Option<Vec<f64>> = solved.rows.iter().map(of_row).collect();
             Some((symbol, ratios?))
@@ -80,8 +82,16 @@ fn least(
     symbol: &str,
 ) -> Option<f64> {
     let all = ratings.at(solution);
-    let own = all.iter().filter(|rating| judged.contains(&t.parts()[rating.part].path));
-    let figures = own.filter_map(|rating| rating.result.as_ref().ok()).flat_map(|rated| rated.figures());
-    let values = figures.filter(|rated| rated.figure.symbol == symbol).map(|rated| rated.value);
-    values.filter(|value| value.is_finite() && *value > 0.0).reduce(f64::min)
+    let own = all
+        .iter()
+        .filter(|rating| judged.contains(&t.parts()[rating.part].path));
+    let figures = own
+        .filter_map(|rating| rating.result.as_ref().ok())
+        .flat_map(|rated| rated.figures());
+    let values = figures
+        .filter(|rated| rated.figure.symbol == symbol)
+        .map(|rated| rated.value);
+    values
+        .filter(|value| value.is_finite() && *value > 0.0)
+        .reduce(f64::min)
 }
