@@ -51,7 +51,8 @@ fn every_model_at_every_set_is_as_committed() {
         .sets
         .iter()
         .filter(|set| set.source.kind == Basis::Measured && set.study.is_some());
-    assert!(measured.count() >= 6);
+    assert!(measured.count() >= 8);
+    assert!(corpus.sets.iter().filter(|set| set.study.is_some()).count() >= 13);
     // Sets are counted: no model has more than there are.
     assert!(over_sets(&cells).iter().all(|model| model.sets.len() <= 6));
 }
@@ -184,6 +185,51 @@ fn a_set_judges_models_or_says_what_it_needs() {
     assert!(text.contains("a set with a study needs nothing"), "{text}");
     let text = refused(|set| replace(set, "study.yaml", "mechanism: bearing", "mechanism: bearings"));
     assert!(text.contains("study.yaml"), "{text}");
+}
+
+/// The laws of the oil, as a data sheet has it: viscosities at 40 and 100 degC come out of the law that goes through them.
+#[test]
+fn laws_of_oils_are_judged_and_their_tables_are_checked() {
+    let gearbox = "gearloss: gearbox/1
+ports: { input: shaft }
+shafts: { shaft: { axis: [0 mm, 0 mm] , bearings: none } }
+lubricants: { oil: { viscosity: { kv40: 100 mm2/s, kv100: 11 mm2/s }, density: { value: 880 kg/m3, at: 15 degC } } }
+thermal: { mode: fixed, oil: 40 degC }
+";
+    let study = |analyses: &str| {
+        format!("gearloss: study/1\ngearboxes: {{ oils: gearbox.yaml }}\nanalyses: {{ {analyses} }}\n")
+    };
+    let run =
+        |analyses: &str, table: &str| run_texts(&study(analyses), &[("gearbox.yaml", gearbox), ("oil.csv", table)]);
+    let viscosity = "oil: { type: oil_property, property: kinematic_viscosity, file: oil.csv, accuracy: 2 % }";
+    let table = "temperature,kinematic_viscosity\ndegC,mm2/s\n40,100\n100,11\n";
+    let ran = run(viscosity, table);
+    assert!(ran.succeeded, "{}", ran.text);
+    let found = ran.json("oil")["oil_property"].clone();
+    assert_eq!(found["laws"].as_array().unwrap().len(), 4);
+    for law in found["laws"].as_array().unwrap() {
+        let ratio = law["all"]["ratio"].as_f64().unwrap();
+        assert!((ratio - 1.0).abs() < 1e-3 && law["all"]["in_band"] == 1.0, "{law}");
+    }
+    let refused = |analyses: &str, table: &str| {
+        let ran = run(analyses, table);
+        assert!(!ran.succeeded && ran.text.contains("= help: "), "{}", ran.text);
+        ran.text
+    };
+    let unit = refused(viscosity, &table.replace("mm2/s", "mPa s"));
+    assert!(unit.contains("`kinematic_viscosity` is in `mPa s`"), "{unit}");
+    let oil = refused(
+        viscosity,
+        "oil,temperature,kinematic_viscosity\n-,degC,mm2/s\noli,40,100\n",
+    );
+    assert!(
+        oil.contains("line 3: there is no lubricant `oli`") && oil.contains("write `oil`"),
+        "{oil}"
+    );
+    let column = refused(&viscosity.replace("kinematic_viscosity", "density"), table);
+    assert!(column.contains("no column `density`"), "{column}");
+    let file = refused(&viscosity.replace("oil.csv", "oils.csv"), table);
+    assert!(file.contains("oils.csv: cannot read"), "{file}");
 }
 
 #[test]

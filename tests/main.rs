@@ -15,6 +15,7 @@ mod comparison;
 mod conformance;
 mod consumption;
 mod corpus;
+mod correction;
 mod counts;
 mod coverage;
 mod cycle;

@@ -28,7 +28,7 @@ const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 const OPEN: [&str; 6] = ["bound", "set", "terms_w", "value", "model", "limit_values"];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 17] = [
+const OPTIONAL: [&str; 21] = [
     "crossed_stages",
     "lengthwise_sliding_m_s",
     "data",
@@ -46,6 +46,10 @@ const OPTIONAL: [&str; 17] = [
     "fitted",
     "inclination_deg",
     "window",
+    "correction",
+    "corrections",
+    "corrected",
+    "corrected_difference",
 ];
 
 /// One file of results with the type of its analysis.

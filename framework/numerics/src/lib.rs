@@ -5,6 +5,7 @@ pub mod fit;
 pub mod inference;
 pub mod least_squares;
 pub mod selection;
+pub mod smooth;
 
 // Which points to take or to vary.
 pub mod design;

@@ -9,6 +9,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::registry::inventory;
 use gearloss_studies::analyses::Outcome;
 use gearloss_studies::analyses::ranges::PublishedCoefficient;
+use gearloss_studies::correction::UsedCorrection;
 use gearloss_studies::points::Note;
 use gearloss_studies::table::Table;
 use serde::Serialize;
@@ -219,6 +220,8 @@ impl Page {
         }
         limits::add(&outcome.head().study_limits, &mut page);
         model_error::add(&outcome.head().model_error, &mut page);
+        let corrections = outcome.head().corrections.iter();
+        page.careful.extend(corrections.map(UsedCorrection::sentence));
         let mut ranges = StatedRanges::default();
         ranges.add_outcome(&outcome.head().analysis, outcome);
         page.outside = ranges.lines();

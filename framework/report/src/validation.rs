@@ -6,12 +6,14 @@ use gearloss_framework::language::Language;
 use gearloss_framework::registry::JudgedCell;
 use gearloss_studies::analyses::validation::{ValidatedModel, ValidationOutcome};
 use gearloss_studies::corpus::{
-    Basis, CellOfSet, FEWEST_SETS, LeftOut, ModelOverSets, Set, Validated, cells_csv, errors_of_laws, over_sets,
+    Basis, CellOfSet, FEWEST_SETS, Judgement, LeftOut, ModelOverSets, Set, Validated, cells_csv, errors_of_laws,
+    over_sets,
 };
 
 use crate::html::{Frame, Report, Section};
 use crate::page::Page;
 use crate::text::TextTable;
+use crate::views::oil_property;
 use crate::views::validation::{CELLS, by_regime, cells, coordinates, fitted, ratio_text};
 
 /// What the document says before its tables.
@@ -67,8 +69,27 @@ pub fn document(language: &Language, validated: &Validated<'_>) -> String {
             set.source.trust.words()
         );
         let _ = writeln!(out, " {}", note_of(set));
-        for outcome in results {
-            of_outcome(&mut out, set, outcome, &cells);
+        if set.source.kind != Basis::Measured {
+            let _ = writeln!(out, "\nNo measurement: it is not counted above.");
+        }
+        for judgement in results {
+            match judgement {
+                Judgement::Losses(outcome) => of_outcome(&mut out, set, outcome, &cells),
+                Judgement::Property(outcome) => {
+                    let (head, rows) = oil_property::cells(&outcome.oil_property);
+                    table(&mut out, &head, rows.into_iter());
+                    for (head, rows) in oil_property::parts(&outcome.oil_property) {
+                        table(
+                            &mut out,
+                            &head.iter().map(String::as_str).collect::<Vec<_>>(),
+                            rows.into_iter(),
+                        );
+                    }
+                    if !outcome.oil_property.left_out.is_empty() {
+                        let _ = writeln!(out, "\nNot judged: {}.", outcome.oil_property.left_out.join("; "));
+                    }
+                }
+            }
         }
     }
     out
@@ -82,9 +103,9 @@ fn note_of(set: &Set) -> String {
     )
 }
 
-fn row_of_set(set: &Set, results: &[ValidationOutcome]) -> Vec<String> {
-    let points: usize = results.iter().map(|outcome| outcome.validation.points).sum();
-    let models: usize = results.iter().map(|outcome| outcome.validation.models.len()).sum();
+fn row_of_set(set: &Set, results: &[Judgement]) -> Vec<String> {
+    let count = |k: usize| results.iter().map(|judgement| judgement.counts()[k]).sum::<usize>();
+    let [points, models] = [0, 1].map(count);
     vec![
         format!("[{0}](../corpus/{0}/source.md)", set.name),
         set.source.title.clone(),
@@ -201,9 +222,6 @@ fn of_outcome(out: &mut String, set: &Set, outcome: &ValidationOutcome, all: &[C
             |cell: &&CellOfSet| cell.set == set.name && cell.mechanism == found.mechanism && cell.model == model.name;
         all.iter().filter(own).any(|cell| cell.seen)
     };
-    if set.source.kind != Basis::Measured {
-        let _ = writeln!(out, "\nNo measurement: it is not counted above.");
-    }
     let row = |model: &ValidatedModel| {
         let mut row = cells(model);
         if is_seen(model) {
@@ -259,17 +277,20 @@ pub fn text(language: &Language, validated: &Validated<'_>) -> String {
         "set", "kind", "points", "models", "closest", "ratio", "least", "greatest",
     ]);
     for (set, results) in &validated.sets {
-        for found in results.iter().map(|outcome| &outcome.validation) {
-            let Some(best) = found.models.first() else { continue };
+        for judgement in results {
+            let Some((name, all)) = judgement.closest() else {
+                continue;
+            };
+            let [points, models] = judgement.counts();
             sets.row(vec![
                 set.name.clone(),
                 set.source.kind.words().to_owned(),
-                found.points.to_string(),
-                found.models.len().to_string(),
-                best.name.clone(),
-                ratio_text(best.all.ratio),
-                ratio_text(best.all.least),
-                ratio_text(best.all.greatest),
+                points.to_string(),
+                models.to_string(),
+                name.to_owned(),
+                ratio_text(all.ratio),
+                ratio_text(all.least),
+                ratio_text(all.greatest),
             ]);
         }
     }
@@ -305,9 +326,9 @@ pub fn text(language: &Language, validated: &Validated<'_>) -> String {
 pub fn page(language: &Language, validated: &Validated<'_>, version: &str) -> (Report, Frame) {
     let mut report = Report::default();
     for (set, results) in &validated.sets {
-        for outcome in results {
+        for outcome in results.iter().map(Judgement::outcome) {
             let mut section = Section {
-                name: format!("{}-{}", set.name, outcome.head.analysis),
+                name: format!("{}-{}", set.name, outcome.head().analysis),
                 title: set.source.title.clone(),
                 about: note_of(set),
                 note: (set.source.kind != Basis::Measured).then(|| "This set is no measurement.".to_owned()),

@@ -9,6 +9,7 @@ pub mod cycle;
 pub mod fluid_sweep;
 pub mod identify;
 pub mod map;
+pub mod oil_property;
 pub mod operating_points;
 pub mod optimise;
 pub mod rms_surface;

@@ -16,7 +16,7 @@ pub use self::model_error::{ErrorOfLaw, JudgingSet, LeftOut, errors_of_laws};
 pub use self::read::is_corpus;
 pub use self::source::{Basis, Product, SourceEntry, SourceFormat, StatedColumn, Trust};
 pub use self::table::cells_csv;
-pub use self::validated::{CellOfSet, FEWEST_SETS, ModelOverSets, Validated, over_sets};
+pub use self::validated::{CellOfSet, FEWEST_SETS, Judgement, ModelOverSets, Validated, over_sets};
 
 use crate::study::Study;
 

@@ -26,7 +26,8 @@ pub mod checked;
 pub mod checked_study;
 pub mod needs;
 
-// What analyses share: points, varied quantities, identification, fits of columns, lists without repetition.
+// What analyses share: corrections, points, varied quantities, identification, fits of columns, lists without repetition.
+pub mod correction;
 pub mod distinct;
 pub mod fit;
 pub mod identify;

@@ -7,10 +7,14 @@ use gearloss_framework::attach::dangling;
 use gearloss_framework::language::Language;
 use serde_json::{Map, Value};
 
+use crate::analyses::identify::IdentifyOutcome;
 use crate::analyses::progress::{Progress, Silent};
 use crate::analyses::{AnalysisEntry, Engine, Outcome, Planner, Stopped, Work};
 use crate::codes;
 use crate::study::Study;
+
+/// Before the name of an analysis: where its corrections are among the found sets, whose names have no `/`.
+const CORRECTION_OF: &str = "correction/";
 
 /// Model sets that analyses have found (`then`): resolved path to value, by name of the set.
 pub type FoundSets = BTreeMap<String, Map<String, Value>>;
@@ -56,7 +60,10 @@ impl<'a> StudyRun<'a> {
     pub fn study_for_analysis(&self) -> Study {
         let mut study = self.study.clone();
         for (set, values) in self.found().iter() {
-            study.fill_set(set, values.clone());
+            match set.strip_prefix(CORRECTION_OF) {
+                Some(analysis) => study.fill_correction(analysis, Value::Object(values.clone())),
+                None => study.fill_set(set, values.clone()),
+            }
         }
         study
     }
@@ -109,6 +116,10 @@ impl<'a> StudyRun<'a> {
         if let Some(then) = analysis.then() {
             let values = outcome.found().into_iter().collect();
             self.found().insert(then.set.to_owned(), values);
+        }
+        if let Some(corrections) = outcome.get::<IdentifyOutcome>().and_then(IdentifyOutcome::corrections) {
+            self.found()
+                .insert(format!("{CORRECTION_OF}{}", engine.name), corrections);
         }
         Ok(outcome)
     }

@@ -95,6 +95,7 @@ fn show_set(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mut Page)
     }
     folds(name, &outcome.requested.groups, o, page);
     hold_out::show(name, o, page);
+    correction(name, o, page);
     if let Err(reason) = &o.found.shares {
         page.line(format!("no uncertainty bands of the losses: {reason}"));
     }
@@ -146,6 +147,23 @@ fn folds(name: &str, groups: &str, o: &IdentificationOfSet, page: &mut Page) {
         page.line(format!(
             "{name}: the model does not extrapolate to {}: {:.3} rms there",
             fold.name, fold.rms
+        ));
+    }
+}
+
+/// How well a correction predicts the loss torque that the fit does not explain.
+fn correction(name: &str, o: &IdentificationOfSet, page: &mut Page) {
+    for of_gear in &o.correction {
+        let over: Vec<&str> = of_gear.over.iter().map(|over| over.words().0).collect();
+        page.verdict(format!(
+            "{name}: gear {}: {} Nm rms of the loss torque remain after the fit; a smooth correction over {}, which is no physics, leaves {} Nm where each of {} points is left out \
+             ({:.0} % of them inside the 95 % band)",
+            of_gear.gear,
+            short(of_gear.rms_before_nm),
+            over.join(", "),
+            short(of_gear.rms_left_out_nm),
+            of_gear.points.len(),
+            100.0 * of_gear.in_band
         ));
     }
 }

@@ -171,10 +171,11 @@ pub fn by_regime(found: &Validation, over: &str, unit: &str) -> (Vec<String>, Ve
     let ends = |regime: &CellOfRegime| {
         let [from, to] = [regime.from, regime.to].map(short);
         // Measured speeds scatter about their setpoints.
-        if from == to {
-            format!("{from} {unit}")
+        let ends = if from == to { from } else { format!("{from} to {to}") };
+        if unit.is_empty() {
+            ends
         } else {
-            format!("{from} to {to} {unit}")
+            format!("{ends} {unit}")
         }
     };
     let first = found.models.first().map(of).unwrap_or_default();

@@ -21,6 +21,8 @@ use super::measurable::countable;
 use super::model_error::ModelErrorEntry;
 use super::rows::RowsPlan;
 use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
+use crate::codes;
+use crate::correction::{CorrectionFrom, ReadyCorrection};
 use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{By, Data, Difference, Quantity, RideEntry, Uses, Write};
@@ -78,6 +80,9 @@ pub struct CompareEntry {
     /// Number of samples for `model_error`; powers of two fill the distributions most evenly. Default: 64. [-]
     #[schemars(range(min = 8, max = 65536))]
     pub samples: Option<u32>,
+    /// Smooth correction of the loss torque of an identification: the differences that remain with it, beside those of the physics. With `data`, one model
+    /// set, and `quantity: loss` or `loss_torque`.
+    pub correction: Option<CorrectionFrom>,
     /// Formats to write; default: CSV and JSON. Figures show the differences and, with data, parity.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,
@@ -126,7 +131,7 @@ pub enum ComparePlan<'a> {
     /// Sets with a base over cycles.
     OverCycles(Box<DrivePlan<'a>>, Vec<Vec<Input>>),
     /// Sets with measured points.
-    WithData(&'a Data, Box<RowsPlan<'a>>),
+    WithData(&'a Data, Box<RowsPlan<'a>>, Option<Vec<ReadyCorrection>>),
 }
 
 impl Plan for ComparePlan<'_> {
@@ -134,7 +139,7 @@ impl Plan for ComparePlan<'_> {
         match self {
             Self::OnGrid(_, plan, _) => plan.work(),
             Self::OverCycles(plan, _) => plan.work(),
-            Self::WithData(_, plan) => plan.work(),
+            Self::WithData(_, plan, _) => plan.work(),
         }
     }
 }
@@ -178,6 +183,15 @@ impl Analysis for CompareEntry {
             let message = "in a comparison with a measurement the measurement judges the models";
             return Err(cx.wrong(&format!("{path}.model_error"), message, "delete it"));
         }
+        if self.correction.is_some() && self.data.is_none() {
+            let message = "a correction is of measured losses, and this comparison is one of sets";
+            return Err(cx.wrong_as(
+                codes::CORRECTION,
+                &format!("{path}.correction"),
+                message,
+                "delete it, or write `data`",
+            ));
+        }
         match (&self.grid, &self.drive, &self.base, &self.data) {
             (None, None, None, Some(_)) if !self.variants.is_empty() => {
                 let message = "a comparison with a measurement has no variants";
@@ -187,7 +201,10 @@ impl Analysis for CompareEntry {
                     "write them as model sets or gearboxes",
                 ))
             }
-            (None, None, None, Some(data)) => Ok(ComparePlan::WithData(data, Box::new(with_data::plan(cx, self, data)?))),
+            (None, None, None, Some(data)) => {
+                let corrections = with_data::corrections(cx, self)?;
+                Ok(ComparePlan::WithData(data, Box::new(with_data::plan(cx, self, data)?), corrections))
+            }
             (.., None) if !self.bind.is_empty() => {
                 Err(cx.wrong(&path, "`bind` belongs to `data`", "state it in the grid"))
             }
@@ -224,8 +241,8 @@ impl Analysis for CompareEntry {
                 let comparisons = over_cycles::compare(engine, self, plan, inputs)?;
                 (plan.built.clone(), None, Comparisons::OverCycles(comparisons))
             }
-            ComparePlan::WithData(data, plan) => {
-                let (built, data, comparisons) = with_data::compare(engine, self, data, plan)?;
+            ComparePlan::WithData(data, plan, corrections) => {
+                let (built, data, comparisons) = with_data::compare(engine, self, data, plan, corrections.as_deref())?;
                 (built, Some(data), Comparisons::WithData(comparisons))
             }
         };

@@ -16,6 +16,7 @@ use serde_json::Value;
 use super::limits::reached::LimitReached;
 use super::model_error::ModelErrorOfSet;
 use super::{Built, Planner};
+use crate::correction::UsedCorrection;
 use crate::study::Study;
 
 /// The head of every result.
@@ -47,6 +48,9 @@ pub struct Head {
     /// What is known of the error of the models, by model set; absent unless the analysis asks for it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub model_error: Vec<ModelErrorOfSet>,
+    /// Smooth corrections of the loss torque that numbers of the result contain; absent without.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub corrections: Vec<UsedCorrection>,
     /// Notes of data entries on their files.
     #[serde(skip)]
     pub about_data: Vec<String>,
@@ -142,6 +146,7 @@ impl Head {
                 .collect(),
             study_limits: Vec::new(),
             model_error: Vec::new(),
+            corrections: Vec::new(),
             about_data: about.to_vec(),
         }
     }

@@ -2,6 +2,7 @@
 
 pub mod checks;
 pub mod compare;
+mod correction;
 mod entry;
 mod folds;
 pub mod found;
@@ -146,6 +147,11 @@ fn refuse(cx: &Planner<'_>, entry: &IdentifyEntry) -> Result<(), Stopped> {
     if entry.folds == FoldsEntry::Torques(1) {
         let message = "cross-validation needs at least two groups";
         return Err(cx.wrong(&format!("{path}.folds"), message, "write at least 2, or 0 for none"));
+    }
+    if entry.correction.is_some() && !entry.bind.is_empty() {
+        let message = "a correction varies over torque, speed and oil temperature, and not over what `bind` changes";
+        let help = "delete `correction`, or identify rows in which nothing is bound";
+        return Err(cx.wrong_as(codes::CORRECTION, &format!("{path}.correction"), message, help));
     }
     if entry.accuracy_factors && loss(entry) != Loss::Linear {
         let message = "a robust loss and factors of the accuracies are contradictory: one treats distant points as outliers, the other as scatter";

@@ -32,6 +32,8 @@ use super::limits::at_points::LimitColumn;
 use super::rows::RowsPlan;
 use super::units::libraries;
 use super::{Analysis, Built, Engine, Plan, Planner, Run, Stopped, Work};
+use crate::codes;
+use crate::correction::{ReadyCorrection, UsedCorrection};
 use crate::distinct::distinct;
 use crate::measured::{Measured, Row};
 use crate::points::{
@@ -49,7 +51,12 @@ pub struct MapPlan<'a> {
     libraries: Vec<Library>,
     /// Measured points for figures.
     measured: Measured,
+    /// The corrections by gear.
+    corrections: Option<Corrections>,
 }
+
+/// Corrections by gear.
+type Corrections = Vec<Arc<ReadyCorrection>>;
 
 /// The points of maps.
 enum PointsOfMap<'a> {
@@ -108,11 +115,13 @@ impl Analysis for MapEntry {
                 return Err(cx.wrong(&path, "a map needs either `grid` or `points`", help));
             }
         };
+        let corrections = self.corrections(cx, &points)?;
         // The libraries of FMUs, if one is exported.
         let is_needed = self.export.iter().any(|name| name.format().has_library());
         Ok(MapPlan {
             points,
             libraries: libraries(cx, &self.fmu_libraries, is_needed)?,
+            corrections,
             measured: match &self.measured {
                 Some(data) => cx.read_at_ports(&format!("{path}.measured"), data, &[])?,
                 None => Measured::default(),
@@ -121,13 +130,15 @@ impl Analysis for MapEntry {
     }
 
     fn reduce<'a>(&'a self, plan: MapPlan<'a>, engine: &Engine<'a>) -> Result<MapOutcome, Stopped> {
+        let corrections = plan.corrections.as_ref();
         let (rows, maps, about_points) = match &plan.points {
             PointsOfMap::Grid(planned) => {
-                let (rows, maps) = self.over_grid(engine, planned)?;
+                let (rows, maps) = self.over_grid(engine, planned, corrections)?;
                 (rows, maps, Vec::new())
             }
-            PointsOfMap::List(listed) => self.over_list(engine, listed)?,
+            PointsOfMap::List(listed) => self.over_list(engine, listed, corrections)?,
         };
+        self.keep_corrections(engine, corrections, &maps)?;
         let measured = plan.measured;
         let built: Vec<Arc<Built<'_>>> = maps.iter().map(|map| Arc::clone(&map.run.built)).collect();
         let grid = self.grid.as_ref().map(|name| engine.study.grid(&engine.path(), name));
@@ -162,12 +173,13 @@ impl MapEntry {
         &self,
         engine: &'a Engine<'a>,
         planned: &[Planned<'a>],
+        corrections: Option<&Corrections>,
     ) -> Result<(Rows<'a>, Vec<Map<'a>>), Stopped> {
         let bound: Vec<String> = planned.first().map_or_else(Vec::new, |first| {
             first.bound.iter().map(|(path, _)| path.clone()).collect()
         });
         let all: Vec<&Built<'_>> = planned.iter().map(|plan| &*plan.run.built).collect();
-        let mut rows = Rows::new(engine, self, &bound, &all);
+        let mut rows = Rows::new(engine, self, &bound, &all, corrections);
         let whole = !self.export.is_empty();
         let mut maps = engine.parts(planned, |plan| {
             let mut map = Map::new(&plan.run, &plan.bound, plan.run.points.oil, &rows);
@@ -218,11 +230,12 @@ impl MapEntry {
         &self,
         engine: &'a Engine<'a>,
         listed: &ListedPoints<'a>,
+        corrections: Option<&Corrections>,
     ) -> Result<(Rows<'a>, Vec<Map<'a>>, Vec<String>), Stopped> {
         let solved = listed.rows.solve(engine)?;
         let paths: Vec<String> = self.bind.iter().map(|(_, path)| path.clone()).collect();
         let all: Vec<&Built<'_>> = solved.iter().flat_map(|solved| &solved.built).map(|b| &**b).collect();
-        let mut rows = Rows::new(engine, self, &paths, &all);
+        let mut rows = Rows::new(engine, self, &paths, &all, corrections);
         let mut maps = Vec::new();
         for solved in &solved {
             for (place, run) in &solved.runs {
@@ -251,6 +264,60 @@ impl MapEntry {
     }
 }
 
+impl MapEntry {
+    /// The corrections, which belong to one model set without bound values.
+    fn corrections(&self, cx: &Planner<'_>, points: &PointsOfMap<'_>) -> Result<Option<Corrections>, Stopped> {
+        let Some(of) = &self.correction else { return Ok(None) };
+        let path = format!("{}.correction", cx.path());
+        let bound = match points {
+            PointsOfMap::Grid(planned) => planned.iter().any(|plan| !plan.bound.is_empty()),
+            PointsOfMap::List(_) => !self.bind.is_empty(),
+        };
+        if bound || self.model_sets.len() > 1 {
+            let message = "a correction belongs to the identified model set, and not to several sets or bound values";
+            let help = "give it a map of its own: with one set, and without `bind`";
+            return Err(cx.wrong_as(codes::CORRECTION, &path, message, help));
+        }
+        let all = cx.corrections(&path, of)?;
+        Ok(Some(all.into_iter().map(Arc::new).collect()))
+    }
+
+    /// Finds that the gearbox is the one that was identified, and records how many points are corrected.
+    fn keep_corrections(
+        &self,
+        engine: &Engine<'_>,
+        corrections: Option<&Corrections>,
+        maps: &[Map<'_>],
+    ) -> Result<(), Stopped> {
+        let (Some(of), Some(all)) = (&self.correction, corrections) else {
+            return Ok(());
+        };
+        if all.is_empty() {
+            let message = format!("`{}` has given no correction", of.name());
+            let help = "correct that analysis, and place it before this one";
+            return Err(engine.wrong_as(
+                codes::NOT_FOUND_YET,
+                &format!("{}.correction", engine.path()),
+                message,
+                help,
+            ));
+        }
+        for map in maps {
+            let gear = &map.run.points.gear;
+            let Some(ready) = all.iter().find(|ready| ready.record.gear == *gear) else {
+                continue;
+            };
+            ready.check(engine, &format!("{}.correction", engine.path()), &map.run)?;
+            engine.keep_correction(UsedCorrection {
+                inside: map.inside[0],
+                outside: map.inside[1],
+                ..UsedCorrection::new(of.name(), &map.run.built.name, ready)
+            });
+        }
+        Ok(())
+    }
+}
+
 /// The common temperature of all points; absent if they differ or are found by heat balance.
 fn common(points: &[PointResult]) -> Option<f64> {
     let first = points.first().filter(|p| p.balance.is_none())?.oil?;
@@ -264,6 +331,8 @@ struct Rows<'c> {
     parts: Vec<String>,
     /// Limits of the study at points.
     limits: Vec<LimitColumn>,
+    /// Corrections by gear.
+    corrections: Option<Corrections>,
     /// Number of columns before those of points.
     constant: usize,
     table: Table,
@@ -274,12 +343,21 @@ struct Rows<'c> {
 }
 
 impl<'c> Rows<'c> {
-    fn new(engine: &'c Engine<'c>, entry: &MapEntry, bound: &[String], all: &[&Built<'_>]) -> Self {
+    fn new(
+        engine: &'c Engine<'c>,
+        entry: &MapEntry,
+        bound: &[String],
+        all: &[&Built<'_>],
+        corrections: Option<&Corrections>,
+    ) -> Self {
         let parts = all.iter().flat_map(|built| built.transmission.parts());
         let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
         let limits = LimitColumn::all(engine.language, engine.study);
+        let mut none = RowsOf::none(bound, &parts, &limits);
+        none.correction = corrections.map(|_| None);
         Self {
-            table: RowsOf::none(bound, &parts, &limits).table(engine.name, []),
+            table: none.table(engine.name, []),
+            corrections: corrections.cloned(),
             limits,
             holds: engine.sink.is_none() || entry.write.contains(&Write::Json),
             wanted: engine.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
@@ -291,8 +369,11 @@ impl<'c> Rows<'c> {
 
     /// Takes the rows of a run.
     fn taker<'r>(&self, run: &'r Run<'r>, bound: &[(String, Value)], selection: &'r Selection) -> Taker<'r> {
+        let mut rows = RowsOf::new(run, bound, &self.parts, &self.limits);
+        let of_gear = |ready: &&Arc<ReadyCorrection>| ready.record.gear == run.points.gear;
+        rows.correction = self.corrections.as_ref().map(|all| all.iter().find(of_gear).cloned());
         Taker {
-            rows: RowsOf::new(run, bound, &self.parts, &self.limits),
+            rows,
             wanted: self.wanted,
             selection,
             run,
@@ -312,6 +393,8 @@ struct Map<'a> {
     notes: Vec<Note>,
     passes: usize,
     undefined: Vec<UndefinedLoss>,
+    /// Numbers of points with a loss inside and outside of the region of a correction.
+    inside: [usize; 2],
     /// Its rows in the table, if stored.
     rows: Range<usize>,
     export: ExportData,
@@ -330,6 +413,7 @@ impl<'a> Map<'a> {
             notes: Vec::new(),
             passes: 0,
             undefined: Vec::new(),
+            inside: [0; 2],
             rows: rows.table.len()..rows.table.len(),
             export: ExportData::default(),
         }
@@ -343,6 +427,8 @@ impl<'a> Map<'a> {
         drop(piece.map(|taken| {
             self.passes += taken.passes;
             self.lost.merge(taken.lost);
+            self.inside[0] += taken.inside[0];
+            self.inside[1] += taken.inside[1];
             tables.push(taken.rows);
             picked.push(taken.picked);
             undefined.extend(taken.undefined);

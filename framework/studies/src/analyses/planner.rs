@@ -9,12 +9,15 @@ use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::transmission::{Case, Transmission};
 use serde_json::Value;
 
+use super::AnalysisEntry;
 use super::head::{Head, InputFile};
+use super::identify::IdentifyEntry;
 use super::limits::Scope;
 use super::limits::at_points::Watch;
 use super::model_error::{ModelError, ModelErrorOfSet, weigh};
 use super::stopped::Stopped;
 use crate::codes;
+use crate::correction::{CorrectionFrom, ReadyCorrection, UsedCorrection};
 use crate::points::{Field, Given, Points};
 use crate::study::{Grid, Study};
 
@@ -50,6 +53,7 @@ struct Record {
     inputs: Vec<InputFile>,
     about: Vec<String>,
     model_errors: Vec<ModelErrorOfSet>,
+    corrections: Vec<UsedCorrection>,
 }
 
 /// Plans analyses of a study: reads, builds and checks what an entry asks for, and solves nothing.
@@ -85,6 +89,7 @@ impl<'a> Planner<'a> {
         let record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
         let mut head = Head::new(self, built, &record.inputs, &record.about);
         head.model_error.clone_from(&record.model_errors);
+        head.corrections.clone_from(&record.corrections);
         head
     }
 
@@ -126,6 +131,80 @@ impl<'a> Planner<'a> {
         let model_set = model_set.to_owned();
         let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
         record.model_errors.push(ModelErrorOfSet { model_set, laws });
+    }
+
+    /// The corrections of an identification; none before it has run.
+    ///
+    /// # Errors
+    /// A file that cannot be read or has no correction; no such analysis above this one.
+    pub fn corrections(&self, path: &str, from: &CorrectionFrom) -> Result<Vec<ReadyCorrection>, Stopped> {
+        let at = |found: Diagnostic| {
+            self.found(vec![Diagnostic {
+                path: path.to_owned(),
+                ..found
+            }])
+        };
+        match (&from.of, &from.file) {
+            (Some(analysis), None) => {
+                if let Some(result) = self.study.correction(analysis) {
+                    return from.take(result).map_err(at);
+                }
+                let above = self
+                    .study
+                    .entry
+                    .analyses
+                    .iter()
+                    .take_while(|(name, _)| *name != self.name);
+                let is_one = |(name, entry): &(&str, &AnalysisEntry)| {
+                    let with = entry
+                        .entry::<IdentifyEntry>()
+                        .is_some_and(|entry| entry.correction.is_some());
+                    name == analysis && with
+                };
+                if above.into_iter().any(|of| is_one(&of)) {
+                    return Ok(Vec::new());
+                }
+                let message = format!("no analysis `{analysis}` above this one identifies with `correction`");
+                let help =
+                    "name an analysis of type `identify` that has `correction: {}`, and place it before this one";
+                Err(self.wrong_as(codes::CORRECTION, &format!("{path}.of"), message, help))
+            }
+            (None, Some(file)) => {
+                let bytes = self.study.read_file(file).map_err(|e| {
+                    let help = "run the identification that writes it first; file names are relative to the study";
+                    self.wrong_as(
+                        codes::CORRECTION,
+                        &format!("{path}.file"),
+                        format!("{file}: cannot read: {e}"),
+                        help,
+                    )
+                })?;
+                self.keep_input(file, &bytes);
+                from.read(&bytes).map_err(at)
+            }
+            _ => {
+                let help = "write `correction: { of: ANALYSIS }`, or `correction: { file: RESULT.json }`";
+                Err(self.wrong_as(
+                    codes::CORRECTION,
+                    path,
+                    "a correction is either `of` an analysis or from a `file`",
+                    help,
+                ))
+            }
+        }
+    }
+
+    /// Records that numbers of the result contain a correction.
+    pub fn keep_correction(&self, used: UsedCorrection) {
+        let mut record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
+        let same =
+            |of: &&mut UsedCorrection| (&of.from, &of.model_set, &of.gear) == (&used.from, &used.model_set, &used.gear);
+        if let Some(known) = record.corrections.iter_mut().find(same) {
+            known.inside += used.inside;
+            known.outside += used.outside;
+        } else {
+            record.corrections.push(used);
+        }
     }
 
     /// Records the nominal losses of a set by part, for the shares of its models.

@@ -2,6 +2,7 @@
 
 mod candidate;
 mod cell;
+mod film;
 
 use std::sync::Arc;
 
@@ -14,9 +15,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-pub use self::cell::Cell;
+pub use self::cell::{Cell, Ratio};
 
 use self::candidate::{Candidate, PointOfCandidate};
+use self::film::Film;
 use super::inputs::Input;
 use super::numbers::{RPM, tidy};
 use super::tournament::CandidatesEntry;
@@ -167,7 +169,7 @@ pub struct FittedFactor {
 /// The points of a regime.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct CellOfRegime {
-    /// What the regime is of: `speed`, `torque`, `oil_temperature`, or a bound column.
+    /// What the regime is of: `speed`, `torque`, `oil_temperature`, `viscosity`, `lambda` or `kappa`, or a bound column.
     pub over: String,
     /// Unit of its ends.
     pub unit: String,
@@ -215,6 +217,8 @@ pub struct ValidationPlan<'a> {
     mechanism: String,
     /// Kinds of the judged components.
     part: String,
+    /// Their paths.
+    judged: Vec<String>,
     left_out: Vec<String>,
     inputs: Vec<Input>,
     samples: usize,
@@ -275,10 +279,12 @@ impl Analysis for ValidationEntry {
         // Whether an accuracy is stated does not depend on the loss.
         let accurate = measured.rows.iter().any(|row| spread(&measured, row, 1.0).is_some());
         let part = self.kinds(&base, &entrants.slot);
+        let judged = self.paths(&base, &entrants.slot);
         Ok(ValidationPlan {
             base,
             candidates,
             named: entrants.named,
+            judged,
             part,
             mechanism: entrants.slot.name,
             left_out,
@@ -294,7 +300,10 @@ impl Analysis for ValidationEntry {
 
     fn reduce<'a>(&'a self, plan: ValidationPlan<'a>, engine: &Engine<'a>) -> Result<ValidationOutcome, Stopped> {
         let mut left_out = plan.left_out.clone();
-        let found = engine.parts(&plan.candidates, |candidate| self.judge(engine, &plan, candidate))?;
+        let film = Film::new(engine, self, &plan);
+        let found = engine.parts(&plan.candidates, |candidate| {
+            self.judge(engine, &plan, candidate, &film)
+        })?;
         let mut models = Vec::new();
         for (candidate, found) in plan.candidates.iter().zip(found) {
             match found {
@@ -324,7 +333,7 @@ impl Analysis for ValidationEntry {
                 file: engine.data(&engine.path(), &self.data)?.file.to_string(),
                 points: plan.measured.rows.len(),
                 samples: plan.samples,
-                over: coordinates(&plan.measured, &models[0].at)
+                over: coordinates(&plan.measured, &models[0].at, &film)
                     .into_iter()
                     .next()
                     .map(|(over, unit, values)| (format!("{} in {unit}", over.replace('_', " ")), values)),
@@ -411,9 +420,12 @@ impl ValidationEntry {
         engine: &Engine<'_>,
         measured: &Measured,
         at: &[ValidatedPoint],
+        film: &Film,
     ) -> Result<Option<FittedFactor>, Stopped> {
         let Some(name) = &self.leave_out else { return Ok(None) };
-        let of = coordinates(measured, at).into_iter().find(|(over, ..)| over == name);
+        let of = coordinates(measured, at, film)
+            .into_iter()
+            .find(|(over, ..)| over == name);
         let Some((_, _, values)) = of else {
             let message =
                 format!("`{name}` does not vary between the points, so that none of its values can be left out");
@@ -458,11 +470,17 @@ impl ValidationEntry {
         if list.is_empty() { Ok(()) } else { Err(cx.found(list)) }
     }
 
-    /// Kinds of the judged components, each once.
-    fn kinds(&self, base: &Built<'_>, slot: &Slot) -> String {
+    /// Paths of the judged components.
+    fn paths(&self, base: &Built<'_>, slot: &Slot) -> Vec<String> {
         let judged = base.transmission.parts().iter().filter(|part| slot.covers(part));
         let judged = judged.filter(|part| self.components.is_empty() || self.components.contains(&part.path));
-        let kinds = judged.filter_map(|part| kind_of(&base.resolved.value, &part.path));
+        judged.map(|part| part.path.clone()).collect()
+    }
+
+    /// Kinds of the judged components, each once.
+    fn kinds(&self, base: &Built<'_>, slot: &Slot) -> String {
+        let paths = self.paths(base, slot);
+        let kinds = paths.iter().filter_map(|path| kind_of(&base.resolved.value, path));
         distinct(kinds).join("+")
     }
 
@@ -472,6 +490,7 @@ impl ValidationEntry {
         engine: &Engine<'_>,
         plan: &ValidationPlan<'_>,
         candidate: &Candidate<'_>,
+        film: &Film,
     ) -> Result<Result<ValidatedModel, String>, Stopped> {
         let measured = &plan.measured;
         let rows = engine.study.rows(measured, &self.bind, self.gear.as_deref(), false);
@@ -553,16 +572,16 @@ impl ValidationEntry {
             name: candidate.name.clone(),
             model: candidate.model.clone(),
             all,
-            regimes: regimes(measured, &at, &sampled),
+            regimes: regimes(measured, &at, film, &sampled),
             failed_samples: plan.samples - solved.len(),
-            fitted: self.fitted(engine, measured, &at)?,
+            fitted: self.fitted(engine, measured, &at, film)?,
             at,
         }))
     }
 }
 
-/// What varies between the points: speed, torque, oil temperature, and the bound columns.
-fn coordinates(measured: &Measured, at: &[ValidatedPoint]) -> Vec<Regime> {
+/// What varies between the points: speed, torque, oil temperature, viscosity, film, and the bound columns.
+fn coordinates(measured: &Measured, at: &[ValidatedPoint], film: &Film) -> Vec<Regime> {
     let mut all: Vec<Regime> = vec![
         (
             "speed".to_owned(),
@@ -578,6 +597,12 @@ fn coordinates(measured: &Measured, at: &[ValidatedPoint]) -> Vec<Regime> {
     if let Some(oil) = at.iter().map(|p| p.oil_temperature_degc).collect() {
         all.push(("oil_temperature".to_owned(), "degC".to_owned(), oil));
     }
+    if let Some(viscosities) = &film.viscosities {
+        all.push(("viscosity".to_owned(), "mm2/s".to_owned(), viscosities.clone()));
+    }
+    if let Some((symbol, ratios)) = &film.ratios {
+        all.push(((*symbol).to_owned(), String::new(), ratios.clone()));
+    }
     for column in measured.columns.iter().filter(|column| column.bound.is_some()) {
         let (Some(name), Some(place)) = (&column.bound, measured.column(&column.header)) else {
             continue;
@@ -592,7 +617,12 @@ fn coordinates(measured: &Measured, at: &[ValidatedPoint]) -> Vec<Regime> {
 }
 
 /// The points by every coordinate that varies.
-fn regimes(measured: &Measured, at: &[ValidatedPoint], sampled: &dyn Fn(&[usize]) -> Vec<f64>) -> Vec<CellOfRegime> {
+fn regimes(
+    measured: &Measured,
+    at: &[ValidatedPoint],
+    film: &Film,
+    sampled: &dyn Fn(&[usize]) -> Vec<f64>,
+) -> Vec<CellOfRegime> {
     let cells = |(over, unit, values): Regime| -> Vec<CellOfRegime> {
         let cell = |([from, to], places): ([f64; 2], Vec<usize>)| {
             let points: Vec<ValidatedPoint> = places.iter().map(|i| at[*i].clone()).collect();
@@ -606,7 +636,7 @@ fn regimes(measured: &Measured, at: &[ValidatedPoint], sampled: &dyn Fn(&[usize]
         };
         bands(&values).into_iter().filter_map(cell).collect()
     };
-    coordinates(measured, at).into_iter().flat_map(cells).collect()
+    coordinates(measured, at, film).into_iter().flat_map(cells).collect()
 }
 
 impl Outcome for ValidationOutcome {

@@ -9,8 +9,8 @@ use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 
 use super::source::NAME;
+use super::validated::Judgement;
 use super::{Corpus, DATA, SOURCE, STUDY, Set, SourceEntry, data};
-use crate::analyses::validation::ValidationEntry;
 use crate::analyses::{Planner, Stopped};
 use crate::codes;
 use crate::study::Study;
@@ -202,11 +202,9 @@ fn judging(language: &Language, files: &SharedSource, file: &Path) -> Result<Stu
     let study = Study::read_from(language, files, file)?;
     study.check(language)?;
     let judging = study.entry.analyses.iter();
-    let mut judging = judging
-        .filter(|(_, analysis)| analysis.entry::<ValidationEntry>().is_some())
-        .peekable();
+    let mut judging = judging.filter(|(_, analysis)| Judgement::is_of(analysis)).peekable();
     if judging.peek().is_none() {
-        let help = "write an analysis with `type: validation`";
+        let help = "write an analysis with `type: validation`, or `oil_property` for properties of oils";
         return Err(study.findings(vec![
             incomplete("analyses", "no analysis judges models by the set").help(help),
         ]));

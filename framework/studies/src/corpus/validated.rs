@@ -6,9 +6,10 @@ use gearloss_numerics::inference::probability::student_quantile;
 use serde_json::Value;
 
 use super::{Basis, Corpus, Set};
+use crate::analyses::oil_property::{LawOfProperty, OilPropertyEntry, OilPropertyOutcome};
 use crate::analyses::progress::Progress;
 use crate::analyses::validation::{Cell, ValidatedModel, ValidationEntry, ValidationOutcome};
-use crate::analyses::{Engine, Planner, Stopped};
+use crate::analyses::{AnalysisEntry, Engine, Outcome, Planner, Stopped};
 use crate::distinct::distinct;
 use crate::run::StudyRun;
 
@@ -18,7 +19,55 @@ pub const FEWEST_SETS: usize = 3;
 /// The results of a corpus: of each set those of its analyses.
 pub struct Validated<'a> {
     /// The sets with their results; none of a set that needs something.
-    pub sets: Vec<(&'a Set, Vec<ValidationOutcome>)>,
+    pub sets: Vec<(&'a Set, Vec<Judgement>)>,
+}
+
+/// The result of an analysis that judges something by a set.
+#[derive(Debug, Clone)]
+pub enum Judgement {
+    /// Models by losses.
+    Losses(ValidationOutcome),
+    /// Laws by values of a property of oils.
+    Property(OilPropertyOutcome),
+}
+
+impl Judgement {
+    /// Whether an analysis judges something.
+    pub(super) fn is_of(analysis: &AnalysisEntry) -> bool {
+        analysis.entry::<ValidationEntry>().is_some() || analysis.entry::<OilPropertyEntry>().is_some()
+    }
+
+    /// As an outcome.
+    pub fn outcome(&self) -> &dyn Outcome {
+        match self {
+            Self::Losses(outcome) => outcome,
+            Self::Property(outcome) => outcome,
+        }
+    }
+
+    /// Number of points, and number of models or laws.
+    pub fn counts(&self) -> [usize; 2] {
+        match self {
+            Self::Losses(outcome) => [outcome.validation.points, outcome.validation.models.len()],
+            Self::Property(outcome) => [outcome.oil_property.points, outcome.oil_property.laws.len()],
+        }
+    }
+
+    /// The closest model or law with its cell.
+    pub fn closest(&self) -> Option<(&str, &Cell)> {
+        match self {
+            Self::Losses(outcome) => outcome
+                .validation
+                .models
+                .first()
+                .map(|model| (model.name.as_str(), &model.all)),
+            Self::Property(outcome) => outcome
+                .oil_property
+                .laws
+                .first()
+                .map(|law| (law.name.as_str(), &law.all)),
+        }
+    }
 }
 
 /// A model at one set.
@@ -70,19 +119,21 @@ impl Corpus {
 }
 
 /// The results of the analyses of a set that judge models.
-fn judged(language: &Language, set: &Set, progress: &dyn Progress) -> Result<Vec<ValidationOutcome>, Stopped> {
+fn judged(language: &Language, set: &Set, progress: &dyn Progress) -> Result<Vec<Judgement>, Stopped> {
     let Some(study) = &set.study else { return Ok(Vec::new()) };
     let run = StudyRun::new(language, study);
     let mut all = Vec::new();
     for (name, analysis) in study.entry.analyses.iter() {
-        if analysis.entry::<ValidationEntry>().is_none() {
+        if !Judgement::is_of(analysis) {
             continue;
         }
         let study = run.study_for_analysis();
         let planner = Planner::new(language, &study, name);
         let outcome = run.run(&Engine::new(&planner, progress))?;
         if let Some(found) = outcome.get::<ValidationOutcome>() {
-            all.push(found.clone());
+            all.push(Judgement::Losses(found.clone()));
+        } else if let Some(found) = outcome.get::<OilPropertyOutcome>() {
+            all.push(Judgement::Property(found.clone()));
         }
     }
     Ok(all)
@@ -93,7 +144,24 @@ impl Validated<'_> {
     pub fn cells(&self, language: &Language) -> Vec<CellOfSet> {
         let mut all = Vec::new();
         for (set, results) in &self.sets {
-            for found in results.iter().map(|outcome| &outcome.validation) {
+            for judgement in results {
+                let found = match judgement {
+                    Judgement::Losses(outcome) => &outcome.validation,
+                    Judgement::Property(outcome) => {
+                        let cell = |law: &LawOfProperty| CellOfSet {
+                            mechanism: format!("oil.{}", outcome.oil_property.name),
+                            model: law.name.clone(),
+                            nested: String::new(),
+                            part: String::new(),
+                            set: set.name.clone(),
+                            kind: set.source.kind,
+                            seen: false,
+                            cell: law.all,
+                        };
+                        all.extend(outcome.oil_property.laws.iter().map(cell));
+                        continue;
+                    }
+                };
                 let cell = |model: &ValidatedModel| {
                     let nested = nested(language, &found.mechanism, &model.model);
                     let own = format!("{}/{}", found.mechanism, type_of(&model.model).unwrap_or_default());

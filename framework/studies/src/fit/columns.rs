@@ -164,6 +164,28 @@ impl Columns {
         (0..self.table.rows.len()).map(cell).collect()
     }
 
+    /// The cells of a column of texts.
+    ///
+    /// # Errors
+    /// If there is no such column, or several.
+    pub fn texts(&self, name: &str) -> Result<Vec<&str>, Diagnostic> {
+        let FoundColumn::At(column) = self.table.column(name) else {
+            let message = format!("no single column `{name}`; there are: {}", self.table.names.join(", "));
+            return Err(self.wrong(None, &message, format!("name one column `{name}`")));
+        };
+        Ok(self
+            .table
+            .rows
+            .iter()
+            .map(|(_, cells)| cells[column].as_str())
+            .collect())
+    }
+
+    /// The number of the line of a row (index from zero).
+    pub fn line(&self, row: usize) -> u64 {
+        self.table.rows[row].0
+    }
+
     /// Checks that there is either one quantity or others in its place.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use crate::distinct::distinct;
 use crate::measured::{Measured, PortSpeeds, Rig, Row, sense};
 use gearloss_framework::description::ThermalMode;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::evaluate::{Point, PowerFlow, Solution};
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::loss::{Extent, Step};
 use gearloss_framework::resolve::Resolved;
@@ -232,10 +232,27 @@ impl Rows<'_> {
         point: &PointResult,
         part: usize,
     ) -> Vec<(String, &'static str)> {
-        let points = self.points(gear, transmission, Vec::new());
-        let Ok(case) = points.case(transmission) else {
-            return Vec::new();
+        let branch = |step: Step| match step {
+            Step::Branch { instance, taken } => Some((transmission.instances()[instance].path.clone(), taken)),
+            Step::Value { .. } => None,
         };
+        let steps = self.with_solution(transmission, gear, point, |solution| {
+            let (_, trace) = solution.explain(part);
+            trace.into_steps().into_iter().filter_map(branch).collect()
+        });
+        steps.unwrap_or_default()
+    }
+
+    /// What a function takes of a solved point of [`Self::solve`] that is evaluated again; absent if the point cannot be prescribed.
+    pub fn with_solution<T>(
+        &self,
+        transmission: &Transmission,
+        gear: &str,
+        point: &PointResult,
+        take: impl FnOnce(&Solution<'_>) -> T,
+    ) -> Option<T> {
+        let points = self.points(gear, transmission, Vec::new());
+        let case = points.case(transmission).ok()?;
         let torques = vec![
             point.torque;
             transmission
@@ -256,12 +273,7 @@ impl Rows<'_> {
         };
         let warm = wanted.find(transmission, &case, &prescribed, &mut scratch);
         let solution = transmission.evaluate(&case, &prescribed, warm.temperatures(), &mut scratch);
-        let (_, trace) = solution.explain(part);
-        let branch = |step: Step| match step {
-            Step::Branch { instance, taken } => Some((transmission.instances()[instance].path.clone(), taken)),
-            Step::Value { .. } => None,
-        };
-        trace.into_steps().into_iter().filter_map(branch).collect()
+        Some(take(&solution))
     }
 
     /// The gear of a row.

@@ -1,5 +1,6 @@
 //! A study with its gearboxes.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -42,6 +43,8 @@ pub struct Study {
     sources: Sources,
     promised: Arc<PromisedSets>,
     taken_over: Arc<TakenOver>,
+    /// Results of identifications with corrections that have run, by the names of the analyses.
+    corrections: Arc<BTreeMap<String, Value>>,
 }
 
 impl Study {
@@ -161,6 +164,7 @@ impl Study {
             places: Arc::new(walked.places),
             sources,
             promised: Arc::new(promised),
+            corrections: Arc::default(),
             taken_over: Arc::new(taken_over),
         })
     }
@@ -333,6 +337,16 @@ impl Study {
         {
             set["set"] = Value::Object(values);
         }
+    }
+
+    /// Keeps the corrections of an identification for later analyses.
+    pub(crate) fn fill_correction(&mut self, analysis: &str, result: Value) {
+        Arc::make_mut(&mut self.corrections).insert(analysis.to_owned(), result);
+    }
+
+    /// The corrections of an identification that has run.
+    pub(crate) fn correction(&self, analysis: &str) -> Option<&Value> {
+        self.corrections.get(analysis)
     }
 
     /// The first model set of an analysis that needs values from another analysis, with that analysis.

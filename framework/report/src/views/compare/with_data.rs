@@ -47,6 +47,12 @@ fn statistics(c: &DataComparison) -> TextTable {
     };
     line("all points".to_owned(), c.difference);
     line("all points, loss in %".to_owned(), c.loss_difference_percent_of_loss);
+    if c.corrected_difference.is_some() {
+        line(
+            "all points inside, with the correction".to_owned(),
+            c.corrected_difference,
+        );
+    }
     for band in &c.bands {
         line(range(band), band.difference);
     }

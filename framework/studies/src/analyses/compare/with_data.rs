@@ -10,6 +10,8 @@ use crate::analyses::measurable::is_measurable;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::rows::{RowsPlan, Solved};
 use crate::analyses::{Built, Engine, Planner, Stopped};
+use crate::codes;
+use crate::correction::{ReadyCorrection, UsedCorrection};
 use crate::measured::{Measured, Row, Seen, counted};
 use crate::points::{Note, PointResult, Statistics, bands};
 use crate::study::{Data, Difference, Quantity};
@@ -39,6 +41,9 @@ pub struct DataComparison {
     pub difference: Option<Statistics>,
     /// Statistics of the differences of the loss, of the measured loss. [%]
     pub loss_difference_percent_of_loss: Option<Statistics>,
+    /// Statistics of the differences that remain with a smooth correction, at the points inside of its measured region; absent without one. [unit of the differences]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corrected_difference: Option<Statistics>,
     /// Differences in bands of torque, then of speed.
     pub bands: Vec<Band>,
     /// What models of the set noted.
@@ -88,6 +93,9 @@ pub struct ComparedPoint {
     pub difference: Option<f64>,
     /// The same difference as a loss, of the measured loss. [%]
     pub loss_difference_percent_of_loss: Option<f64>,
+    /// Quantity and difference with a smooth correction; absent without one, and outside of its measured region.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corrected: Option<CorrectedPoint>,
     /// Accuracy of the measured quantity, if a column states it. [unit of the quantity]
     pub accuracy: Option<f64>,
     /// Name of the file, if there are several.
@@ -105,6 +113,17 @@ pub struct ComparedPoint {
     /// True if there is no loss because nothing turns: no difference is stated.
     #[serde(skip)]
     pub still: bool,
+}
+
+/// A compared point with a correction.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct CorrectedPoint {
+    /// Quantity of the model with the correction. [unit of the quantity]
+    pub model: f64,
+    /// Its 95 % band, of the correction alone. [unit of the quantity]
+    pub band: [f64; 2],
+    /// Corrected model minus measurement. [unit of the differences]
+    pub difference: Option<f64>,
 }
 
 /// Model sets in order of agreement with the measurement.
@@ -126,6 +145,61 @@ pub(super) fn plan<'a>(cx: &Planner<'a>, entry: &'a CompareEntry, data: &Data) -
     RowsPlan::new(cx, gearbox, &entry.against, (measured, &entry.bind), gear, false)
 }
 
+/// The corrections of an entry, which belong to one identified set.
+pub(super) fn corrections(cx: &Planner<'_>, entry: &CompareEntry) -> Result<Option<Vec<ReadyCorrection>>, Stopped> {
+    let Some(from) = &entry.correction else { return Ok(None) };
+    let path = format!("{}.correction", cx.path());
+    let wrong = |message: &str, help: &str| Err(cx.wrong_as(codes::CORRECTION, &path, message, help));
+    if !matches!(entry.quantity, Quantity::Loss | Quantity::LossTorque) {
+        return wrong(
+            "a correction is of the loss torque",
+            "write `quantity: loss` or `quantity: loss_torque`",
+        );
+    }
+    if entry.against.len() > 1 || !entry.bind.is_empty() {
+        let help = "give it a comparison of its own: with one set, and without `bind`";
+        return wrong(
+            "a correction belongs to the identified model set, and not to several sets or bound values",
+            help,
+        );
+    }
+    cx.corrections(&path, from).map(Some)
+}
+
+/// Finds that the gearbox is the one that was identified, and records how many points are corrected.
+fn keep_corrections(
+    engine: &Engine<'_>,
+    entry: &CompareEntry,
+    all: &[ReadyCorrection],
+    (solved, comparison): (&Solved<'_>, &DataComparison),
+) -> Result<(), Stopped> {
+    let Some(from) = &entry.correction else { return Ok(()) };
+    let path = format!("{}.correction", engine.path());
+    if all.is_empty() {
+        let message = format!("`{}` has given no correction", from.name());
+        let help = "correct that analysis, and place it before this one";
+        return Err(engine.wrong_as(codes::NOT_FOUND_YET, &path, message, help));
+    }
+    for (_, run) in &solved.runs {
+        let gear = &run.points.gear;
+        let Some(ready) = all.iter().find(|ready| ready.record.gear == *gear) else {
+            continue;
+        };
+        ready.check(engine, &path, run)?;
+        let own = comparison
+            .points
+            .iter()
+            .filter(|point| point.gear == *gear && point.model.is_some());
+        let corrected = own.clone().filter(|point| point.corrected.is_some()).count();
+        engine.keep_correction(UsedCorrection {
+            inside: corrected,
+            outside: own.count() - corrected,
+            ..UsedCorrection::new(from.name(), &solved.name, ready)
+        });
+    }
+    Ok(())
+}
+
 /// The sets, the measurement, and the comparisons.
 type Compared<'a> = (Vec<Arc<Built<'a>>>, DataOfComparison, Vec<DataComparison>);
 
@@ -134,12 +208,20 @@ pub(super) fn compare<'a>(
     entry: &CompareEntry,
     data: &Data,
     plan: &RowsPlan<'a>,
+    corrections: Option<&[ReadyCorrection]>,
 ) -> Result<Compared<'a>, Stopped> {
     let path = format!("{}.data", engine.path());
     let file = engine.data(&path, data)?.file.to_string();
     let solved = plan.solve(engine)?;
     let measured = &plan.measured;
-    let all: Vec<DataComparison> = solved.iter().map(|s| comparison(entry, measured, s)).collect();
+    let corrections = corrections.unwrap_or_default();
+    let all: Vec<DataComparison> = solved
+        .iter()
+        .map(|s| comparison(entry, measured, s, corrections))
+        .collect();
+    for of_set in solved.iter().zip(&all) {
+        keep_corrections(engine, entry, corrections, of_set)?;
+    }
     if all.iter().all(|c| c.points.iter().all(|p| p.measured.is_none())) {
         let message = format!("{file}: there is no measured {}", entry.quantity.name());
         let help = "add a column of it, or columns of torque and speed at both ports";
@@ -162,10 +244,18 @@ pub(super) fn compare<'a>(
     Ok((built, data, all))
 }
 
-fn comparison(entry: &CompareEntry, measured: &Measured, solved: &Solved<'_>) -> DataComparison {
+fn comparison(
+    entry: &CompareEntry,
+    measured: &Measured,
+    solved: &Solved<'_>,
+    corrections: &[ReadyCorrection],
+) -> DataComparison {
     let rows = measured.rows.iter().zip(&solved.rows);
     let points: Vec<ComparedPoint> = rows
-        .map(|(row, (_, gear, point))| compared(entry, measured, (row, gear), point))
+        .map(|(row, (_, gear, point))| {
+            let ready = corrections.iter().find(|ready| ready.record.gear == *gear);
+            compared(entry, measured, (row, gear), point, ready)
+        })
         .collect();
     let accuracies = points
         .iter()
@@ -180,6 +270,9 @@ fn comparison(entry: &CompareEntry, measured: &Measured, solved: &Solved<'_>) ->
         unit: entry.quantity.unit(entry.difference),
         difference: Statistics::weighted(differences),
         loss_difference_percent_of_loss: Statistics::weighted(losses),
+        corrected_difference: Statistics::weighted(
+            points.iter().filter_map(|p| Some((p.corrected?.difference?, p.weight))),
+        ),
         bands: bands_of_points(&points),
         notes: solved.notes.clone(),
         accuracy: Statistics::from_values(accuracies).map(|s| s.rms).or(entry.accuracy),
@@ -192,9 +285,27 @@ fn compared(
     measured: &Measured,
     (row, gear): (&Row, &str),
     point: &PointResult,
+    ready: Option<&ReadyCorrection>,
 ) -> ComparedPoint {
     let seen = Seen::without_rig(measured, row, point);
     let (saw, model) = (seen.quantity(entry.quantity), entry.quantity.value(point));
+    let corrected = ready
+        .and_then(|ready| ready.of(point))
+        .zip(model)
+        .map(|(correction, model)| {
+            // A loss is the torque over the speed of the reference port.
+            let factor = if entry.quantity == Quantity::Loss {
+                point.reference_speed.abs()
+            } else {
+                1.0
+            };
+            let whole = model + correction.torque * factor;
+            CorrectedPoint {
+                model: whole,
+                band: correction.band.map(|torque| model + torque * factor),
+                difference: saw.and_then(|saw| entry.quantity.difference(entry.difference, saw, whole)),
+            }
+        });
     let losses = seen.loss.zip(point.loss);
     // A loss is zero at standstill whatever the model is.
     let still = entry.quantity == Quantity::Loss
@@ -217,6 +328,7 @@ fn compared(
         loss_difference_percent_of_loss: losses
             .filter(|(saw, model)| is_measurable(*saw, *model))
             .map(|(saw, model)| 100.0 * (model - saw) / saw),
+        corrected,
         accuracy: seen.accuracy(entry.quantity),
         file: measured.file(row).map(str::to_owned),
         speed: point.speed,
@@ -266,11 +378,46 @@ pub fn ranking(all: &[DataComparison]) -> Ranking {
     }
 }
 
+/// A number of a corrected point.
+type ValueOfCorrected = fn(&CorrectedPoint) -> Option<f64>;
+
 pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), all: &[DataComparison]) -> Table {
     let what = quantity.name();
     let difference_name = format!("difference_{}", quantity.unit(difference));
     let mut points = all.iter().flat_map(|c| &c.points);
     let several = points.any(|p| p.file.is_some());
+    let all_corrected = all
+        .iter()
+        .flat_map(|c| &c.points)
+        .any(|point| point.corrected.is_some());
+    let corrected: Vec<(String, &'static str, &'static str, ValueOfCorrected)> = if all_corrected {
+        let (of, of_difference) = (unit(quantity), quantity.words(difference).1);
+        vec![
+            (
+                format!("corrected_{what}"),
+                of,
+                "Quantity with the set and a smooth correction",
+                |c| Some(c.model),
+            ),
+            (format!("corrected_{what}_low"), of, "Lower end of its 95 % band", |c| {
+                Some(c.band[0])
+            }),
+            (
+                format!("corrected_{what}_high"),
+                of,
+                "Upper end of its 95 % band",
+                |c| Some(c.band[1]),
+            ),
+            (
+                format!("corrected_{difference_name}"),
+                of_difference,
+                "Corrected model minus measurement",
+                |c| c.difference,
+            ),
+        ]
+    } else {
+        Vec::new()
+    };
     let table =
         Table::of_each(name, all, |comparison| &comparison.points)
             .text("model_set", "Model set", |(of_set, _)| &of_set.model_set);
@@ -303,6 +450,11 @@ pub(super) fn table(name: &str, (quantity, difference): (Quantity, Difference), 
             "Loss of the model minus measured loss",
             |(_, point)| point.loss_difference_percent_of_loss,
         )
+        .each(corrected.iter(), |table, (name, unit, meaning, value)| {
+            table.number(name.as_str(), *unit, *meaning, |(_, point)| {
+                point.corrected.and_then(|corrected| value(&corrected))
+            })
+        })
         .number(
             format!("accuracy_{what}"),
             unit(quantity),

@@ -4,6 +4,7 @@ use gearloss_framework::description::Ordered;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::correction::CorrectionEntry;
 use crate::study::{Data, FoldsEntry, HoldOutEntry, IdentifiedEntry, NamesOrParameters, Quantity, Write};
 
 /// Identification of uncertain parameters from measured points.
@@ -58,6 +59,9 @@ pub struct IdentifyEntry {
     /// Torque of the points in the figure of stacked losses and measured total; default: nearest to half the maximum. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub stack_at: Option<f64>,
+    /// A smooth correction of the loss torque that remains after the fit, apart from the physics and with its uncertainty: `{}`. Maps and comparisons
+    /// read it from the JSON result.
+    pub correction: Option<CorrectionEntry>,
     /// Proposed measurements.
     pub next: Option<NextEntry>,
     /// Name of a model set for later analyses: the fitted set with the identified values.

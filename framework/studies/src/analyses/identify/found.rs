@@ -3,6 +3,7 @@
 use gearloss_numerics::inference::{Fold, Validation, Widening};
 
 use super::checks::Checks;
+use super::correction;
 use super::entry::IdentifyEntry;
 use super::hold_out::{HoldOutOfSet, predict};
 use super::lines::{Sheet, sheets};
@@ -10,6 +11,7 @@ use super::next::{self, Candidates, Next};
 use super::posterior::{self, PosteriorOfSet};
 use crate::analyses::{JobsWithin, Stopped};
 use crate::codes;
+use crate::correction::Correction;
 use crate::distinct::distinct;
 use crate::identify::{
     Calculated, Fitted, HoldOut, Identification, Identified, Observation, Pair, Profiled, Settings, ShareBands,
@@ -57,6 +59,8 @@ pub(super) struct Beside {
     pub held_out: Option<HoldOutOfSet>,
     /// Observed limits at the end.
     pub outside: Vec<Note>,
+    /// Corrections of the loss torque, if requested.
+    pub correction: Vec<Correction>,
 }
 
 /// State of the gearbox at one row.
@@ -151,7 +155,12 @@ impl Found {
             merge(&mut seen, &there);
             held_out
         });
+        let correction = match &entry.correction {
+            Some(wanted) => correction::fit(cx, wanted, identification.measured(), &after)?,
+            None => Vec::new(),
+        };
         let beside = Beside {
+            correction,
             posterior,
             held_out,
             outside: notes(transmission, &seen),

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use serde_json::{Map, Value, json};
 
 use super::compare::ComparisonOfSets;
 use super::folds::FoldsOfSet;
@@ -12,6 +13,7 @@ use super::parameter::ParameterOfSet;
 use super::posterior::PosteriorOfSet;
 use super::search::SearchOfSet;
 use crate::analyses::Head;
+use crate::correction::Correction;
 use crate::points::Note;
 
 /// Identification of uncertain parameters from measured points with each model set.
@@ -35,6 +37,16 @@ pub struct IdentifyOutcome {
     /// Further requested outputs.
     #[serde(skip)]
     pub requested: Requested,
+}
+
+impl IdentifyOutcome {
+    /// What later analyses need of its corrections, in the form of the result; absent without corrections.
+    pub(crate) fn corrections(&self) -> Option<Map<String, Value>> {
+        let with = self.identifications.iter().filter(|of| !of.correction.is_empty());
+        let record = |of: &IdentificationOfSet| json!({ "model_set": of.model_set, "correction": of.correction });
+        let all: Vec<Value> = with.map(record).collect();
+        (!all.is_empty()).then(|| Map::from_iter([("identifications".to_owned(), Value::Array(all))]))
+    }
 }
 
 /// The measured points.
@@ -105,6 +117,9 @@ pub struct IdentificationOfSet {
     pub folds: Option<FoldsOfSet>,
     /// Held-out rows; absent if there are none.
     pub hold_out: Option<HoldOutOfSet>,
+    /// Smooth corrections of the loss torque, one for each gear; absent if not requested.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub correction: Vec<Correction>,
     /// The fitted values.
     pub points: Vec<PointOfFit>,
     /// Proposed measurements; absent if not requested or not possible.

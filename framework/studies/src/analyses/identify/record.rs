@@ -49,6 +49,7 @@ impl IdentificationOfSet {
             checks: ChecksOfSet::new(&found),
             folds: FoldsOfSet::new(&found, &entry.folds),
             hold_out: beside.held_out,
+            correction: beside.correction,
             points: points(&found),
             next: next.map(|next| next.record(&found)),
             outside: beside.outside,

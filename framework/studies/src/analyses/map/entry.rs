@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::export::ExportName;
+use crate::correction::CorrectionFrom;
 use crate::study::{Data, Write};
 
 /// Losses and efficiency over a grid.
@@ -34,6 +35,9 @@ pub struct MapEntry {
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
+    /// Smooth correction of the loss torque of an identification: further columns with the corrected loss and its band, apart from those of
+    /// the physics. Points outside of the measured region have none. Tables for other programs contain the physics alone.
+    pub correction: Option<CorrectionFrom>,
     /// Formats to write; default: CSV and JSON. Figures show efficiency, loss and, with a heat balance, temperature.
     #[serde(default = "Write::data")]
     pub write: Vec<Write>,

@@ -1,6 +1,7 @@
 //! The points of a map: rows of the table, and records of the JSON.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use gearloss_framework::description::Ordered;
 use gearloss_framework::flow::Status;
@@ -14,6 +15,7 @@ use super::super::Run;
 use super::super::limits::at_points::LimitColumn;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
+use crate::correction::{Corrected, ReadyCorrection};
 use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss};
 use crate::table::{Column, Table, Values};
 
@@ -30,6 +32,45 @@ pub struct RowsOf {
     parts: Vec<(String, Option<usize>)>,
     /// Limits of the study at points.
     limits: Vec<LimitColumn>,
+    /// Whether points have columns of a correction, and the correction of this gear.
+    pub correction: Option<Option<Arc<ReadyCorrection>>>,
+}
+
+/// A point with its correction, if it has one.
+type PointWith<'p> = (&'p PointResult, Option<Corrected>);
+
+/// Columns of a correction.
+pub const CORRECTED: [(&str, &str, &str); 6] = [
+    (
+        "correction_nm",
+        "Nm",
+        "Smooth correction of the loss torque; empty outside of the measured region",
+    ),
+    ("correction_low_nm", "Nm", "Lower end of its 95 % band"),
+    ("correction_high_nm", "Nm", "Upper end of its 95 % band"),
+    ("corrected_loss_torque_nm", "Nm", "Loss torque with the correction"),
+    ("corrected_loss_w", "W", "Loss with the correction"),
+    (
+        "corrected_loss_half_band_w",
+        "W",
+        "Half-width of its 95 % band, of the correction alone",
+    ),
+];
+
+/// Values of the columns of a correction.
+fn corrected((point, correction): &PointWith<'_>) -> Option<[f64; 6]> {
+    let (correction, torque) = ((*correction)?, point.loss_torque?);
+    let [low, high] = correction.band;
+    let speed = point.reference_speed.abs();
+    let whole = torque + correction.torque;
+    Some([
+        correction.torque,
+        low,
+        high,
+        whole,
+        whole * speed,
+        0.5 * (high - low) * speed,
+    ])
 }
 
 impl RowsOf {
@@ -41,6 +82,7 @@ impl RowsOf {
             bound: bound.iter().map(|path| (path.clone(), String::new())).collect(),
             parts: parts.iter().map(|part| (part.clone(), None)).collect(),
             limits: limits.to_vec(),
+            correction: None,
         }
     }
 
@@ -53,45 +95,61 @@ impl RowsOf {
             bound: bound.iter().map(|(path, value)| (path.clone(), word(value))).collect(),
             parts: parts.iter().map(|part| (part.clone(), place(part))).collect(),
             limits: limits.to_vec(),
+            correction: None,
         }
+    }
+
+    /// The correction of a point.
+    pub fn correction_of(&self, point: &PointResult) -> Option<Corrected> {
+        self.correction.as_ref()?.as_ref()?.of(point)
     }
 
     /// The rows of some points.
     pub fn table<'p>(&self, name: &str, points: impl IntoIterator<Item = &'p PointResult>) -> Table {
-        Table::of(name, points)
+        let columns: &[_] = if self.correction.is_some() { &CORRECTED } else { &[] };
+        Table::of(name, points.into_iter().map(|point| (point, self.correction_of(point))))
             .text("model_set", "Model set", |_| &self.model_set)
             .text("gear", "Gear", |_| &self.gear)
             .each(&self.bound, |table, (path, value)| {
                 table.text(path, "Bound value", |_| value)
             })
-            .number("torque_nm", "Nm", "Torque", |p| p.torque)
-            .number("speed_rpm", "rpm", "Speed", |p| tidy(p.speed * RPM))
-            .number("oil_temperature_degc", "degC", "Oil temperature", |p| p.oil)
-            .number("surface_temperature_degc", "degC", "Surface temperature", |p| p.surface)
-            .text("balance", "Status of the heat balance", |p| {
+            .number("torque_nm", "Nm", "Torque", |(p, _)| p.torque)
+            .number("speed_rpm", "rpm", "Speed", |(p, _)| tidy(p.speed * RPM))
+            .number("oil_temperature_degc", "degC", "Oil temperature", |(p, _)| p.oil)
+            .number("surface_temperature_degc", "degC", "Surface temperature", |(p, _)| {
+                p.surface
+            })
+            .text("balance", "Status of the heat balance", |(p, _)| {
                 p.balance.map_or("", thermal::Outcome::name)
             })
-            .text("status", "State of the transmission", |p| p.status.name())
-            .number("efficiency", "-", "Output power over input power", |p| p.efficiency)
-            .number("loss_w", "W", "Sum of all losses", |p| p.loss)
+            .text("status", "State of the transmission", |(p, _)| p.status.name())
+            .number("efficiency", "-", "Output power over input power", |(p, _)| {
+                p.efficiency
+            })
+            .number("loss_w", "W", "Sum of all losses", |(p, _)| p.loss)
             .number(
                 "loss_torque_nm",
                 "Nm",
                 "Loss over the speed of the reference port",
-                |p| p.loss_torque,
+                |(p, _)| p.loss_torque,
             )
-            .number("input_w", "W", "Input power", |p| p.input)
-            .number("output_w", "W", "Output power", |p| p.output)
+            .number("input_w", "W", "Input power", |(p, _)| p.input)
+            .number("output_w", "W", "Output power", |(p, _)| p.output)
             .each(SUMS.iter().enumerate(), |table, (i, (sum, meaning))| {
-                table.number(format!("{sum}_w"), "W", *meaning, |p| sums(p).map(|sums| sums[i]))
+                table.number(format!("{sum}_w"), "W", *meaning, |(p, _)| sums(p).map(|sums| sums[i]))
             })
             .each(&self.parts, |table, (part, place)| {
-                table.number(format!("{part}_w"), "W", "Loss of the component", |p| {
+                table.number(format!("{part}_w"), "W", "Loss of the component", |(p, _)| {
                     place.and_then(|place| loss_of(p, place))
                 })
             })
+            .each(columns.iter().enumerate(), |table, (i, (name, unit, meaning))| {
+                table.number(*name, *unit, *meaning, |row: &PointWith<'_>| {
+                    corrected(row).map(|values| values[i])
+                })
+            })
             .each(self.limits.iter().enumerate(), |table, (i, limit)| {
-                table.number(limit.key(), limit.unit, limit.words.clone(), |p| {
+                table.number(limit.key(), limit.unit, limit.words.clone(), |(p, _)| {
                     p.limits.get(i).copied()
                 })
             })
@@ -129,6 +187,8 @@ pub struct Taken {
     pub passes: usize,
     pub lost: TotalLoss,
     pub undefined: Vec<UndefinedLoss>,
+    /// Numbers of points with a loss inside and outside of the region of a correction.
+    pub inside: [usize; 2],
 }
 
 impl Taker<'_> {
@@ -149,7 +209,20 @@ impl Taker<'_> {
             passes: points.iter().map(|(_, point)| point.passes).sum(),
             lost: TotalLoss::of(points.iter().map(|(_, point)| &**point)),
             undefined: points.iter().filter_map(undefined).collect(),
+            inside: self.inside(points),
         }
+    }
+
+    /// Numbers of points with a loss inside and outside of the region of a correction.
+    fn inside(&self, points: &Numbered<'_>) -> [usize; 2] {
+        if self.rows.correction.is_none() {
+            return [0; 2];
+        }
+        let with_loss = points.iter().filter(|(_, point)| point.loss_torque.is_some());
+        let has = with_loss.map(|(_, point)| self.rows.correction_of(point).is_some());
+        let has: Vec<bool> = has.collect();
+        let inside = has.iter().filter(|inside| **inside).count();
+        [inside, has.len() - inside]
     }
 }
 
@@ -206,11 +279,27 @@ pub struct MapPoint<'a> {
     sums_w: Option<Sums>,
     /// Losses of the components, in order. [W]
     parts_w: Vec<Option<f64>>,
+    /// Correction of the loss torque and the corrected loss; absent without a correction, and outside of the measured region.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    correction: Option<CorrectionOfPoint>,
     /// Limited quantities, by the names of the limits; absent if the study has none at points.
     #[serde(skip_serializing_if = "Ordered::is_empty")]
     limit_values: Ordered<Option<f64>>,
     /// Why a loss has no value.
     undefined: Option<Missing<'a>>,
+}
+
+/// The correction at a point.
+#[derive(Debug, Serialize, JsonSchema)]
+struct CorrectionOfPoint {
+    /// Smooth correction of the loss torque. [Nm]
+    torque_nm: f64,
+    /// Its 95 % band. [Nm]
+    band_nm: [f64; 2],
+    /// Loss torque with the correction. [Nm]
+    corrected_loss_torque_nm: f64,
+    /// Loss with the correction. [W]
+    corrected_loss_w: f64,
 }
 
 /// A loss without a value.
@@ -253,6 +342,25 @@ impl MapPoints {
         }
     }
 
+    /// The columns of a correction, which are before those of limits.
+    fn correction(&self, row: usize) -> Option<CorrectionOfPoint> {
+        let end = self.table.columns.len() - self.limits.len();
+        let columns = &self.table.columns[end.checked_sub(CORRECTED.len())?..end];
+        if columns[0].name != CORRECTED[0].0 {
+            return None;
+        }
+        let value = |i: usize| {
+            let numbers = columns[i].numbers()?;
+            Some(numbers[row]).filter(|x| !x.is_nan())
+        };
+        Some(CorrectionOfPoint {
+            torque_nm: value(0)?,
+            band_nm: [value(1)?, value(2)?],
+            corrected_loss_torque_nm: value(3)?,
+            corrected_loss_w: value(4)?,
+        })
+    }
+
     /// The limited quantities, which have the last columns.
     fn limits_at(&self, row: usize) -> Vec<f64> {
         let limited = &self.table.columns[self.table.columns.len() - self.limits.len()..];
@@ -291,6 +399,7 @@ impl MapPoints {
                 .iter()
                 .map(|part| number(FIXED + SUMS.len() + part))
                 .collect(),
+            correction: self.correction(row),
             limit_values: LimitColumn::by_name(&self.limits, &self.limits_at(row)),
             undefined: undefined.map(|i| Missing {
                 part: &self.undefined[i].part,

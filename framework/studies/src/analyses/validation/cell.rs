@@ -33,10 +33,36 @@ pub struct Cell {
     pub scatter: Option<f64>,
 }
 
+/// A calculated over a measured value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ratio {
+    /// Calculated over measured. \[-\]
+    pub ratio: f64,
+    /// Lower and upper end of its 95 % band. \[-\]
+    pub band: Option<[f64; 2]>,
+    /// Whether all models are inside their stated ranges.
+    pub in_range: bool,
+}
+
+impl From<&ValidatedPoint> for Ratio {
+    fn from(point: &ValidatedPoint) -> Self {
+        Self {
+            ratio: point.ratio,
+            band: point.band,
+            in_range: point.in_range,
+        }
+    }
+}
+
 impl Cell {
     /// Of points with positive ratios, with the means of the logarithms of the ratios in samples of the inputs and of the measurement;
     /// absent without points.
     pub fn of(points: &[ValidatedPoint], sampled: &[f64]) -> Option<Self> {
+        Self::of_ratios(&points.iter().map(Ratio::from).collect::<Vec<_>>(), sampled)
+    }
+
+    /// As [`Cell::of`], of ratios alone.
+    pub fn of_ratios(points: &[Ratio], sampled: &[f64]) -> Option<Self> {
         let logs = Statistics::from_values(points.iter().map(|point| point.ratio.ln()))?;
         let differences: Vec<f64> = points.iter().map(|point| 100.0 * (point.ratio - 1.0)).collect();
         let of = Statistics::from_values(differences.iter().copied())?;
