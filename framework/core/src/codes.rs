@@ -89,6 +89,12 @@ gearloss_document::codes! {
     JOINT = "E0334", "invalid joint",
         cause: "A joint names the same shaft on both sides.",
         help: "Name the shafts on both sides of the joint.";
+    LOAD_SHARING = "E0350", "load sharing that a mesh cannot have",
+        cause: "A load sharing is not defined for the geometry of its mesh, or a modification of a flank does not fit the path of contact.",
+        help: "Correct the modification, or choose another load sharing.";
+    SHARE_FILE = "E0351", "faulty file of load shares",
+        cause: "A file of `load_sharing: { type: file }` cannot be read, is incomplete, or its shares do not carry the whole force.",
+        help: "Correct the file at the place that the message names.";
     TRAVEL = "E0360", "a cycle cannot incline the oil",
         cause: "`housing.travel` lets grade and acceleration of a cycle incline the oil, but no volume of oil or no oil space is known, or an inclination is impossible.",
         help: "State `volume` with `housing.inside`, or delete `travel`.";
@@ -157,4 +163,10 @@ gearloss_document::codes! {
     CHAIN_DOUBTFUL = "W0332", "doubtful chain or belt",
         cause: "The slack strand of a chain sags more than usual, or the forces of a belt on its shafts are not known.",
         help: "Correct the number of links, or state the forces under `loads` of the shafts.";
+    SHARES_COARSE = "W0350", "load sharing between its knots is not accurate",
+        cause: "Between the loads at which the shares of the teeth are calculated, the loss factor is interpolated with a noticeable error.",
+        help: "State more `phases` or `slices`, or a modification that opens less of the flanks.";
+    SHARES_CORRECTED = "W0351", "shares of a file are corrected",
+        cause: "The shares of all pairs of teeth in a file of `load_sharing: { type: file }` do not add up to one exactly.",
+        help: "Write the file with more places along the path, two of them close to each other where a share jumps.";
 }

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 mod cut_off;
 pub mod path;
+pub mod sharing;
 
 /// Film thickness formula.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

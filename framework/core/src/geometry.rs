@@ -8,9 +8,11 @@ mod involute;
 mod pair;
 mod path;
 mod ramp;
+mod share_table;
 mod worm;
 
 pub use involute::involute;
 pub use pair::{Pair, PairFault, PairSpec};
-pub use path::{LoadSharing, PathPoint};
+pub use path::{Line, LoadSharing, PathPoint};
+pub use share_table::{ShareRow, ShareTable};
 pub use worm::{Holding, WormPair, WormProfile, WormSpec};

@@ -1,5 +1,7 @@
 //! A gearbox that was checked: what it is built from, and what deserves attention.
 
+mod load_sharing;
+
 use std::path::Path;
 
 use gearloss_framework::codes;
@@ -21,6 +23,8 @@ use crate::analyses::numbers::{RPM, significant};
 use crate::points::{Note, STATIC_SAFETY, WeakPoint, evidence, merge, notes};
 use crate::ratings::{RatedQuantity, rated};
 
+pub use load_sharing::SharingAtRating;
+
 /// A gearbox that was read, resolved and built.
 pub struct CheckedGearbox {
     /// The gearbox.
@@ -35,6 +39,8 @@ pub struct CheckedGearbox {
     pub evidence: Vec<WeakPoint>,
     /// Coefficients that differ from their source.
     pub changed: Vec<Changed>,
+    /// Losses of the meshes by their load sharing and by one calculated in thin slices, at the rating.
+    pub load_sharings: Vec<SharingAtRating>,
 }
 
 impl CheckedGearbox {
@@ -44,14 +50,17 @@ impl CheckedGearbox {
     /// Everything that building finds.
     pub fn new(language: &Language, gearbox: Gearbox, resolved: Resolved) -> Result<Self, Findings> {
         let transmission = gearbox.build(language, &resolved)?;
-        Ok(Self {
+        let mut checked = Self {
             ratings: gearbox.ratings(language, &resolved, &transmission)?,
             evidence: evidence(&transmission, &resolved, &|path| gearbox.places.is_written(path)),
             changed: changed_from_source(&transmission, &resolved),
             gearbox,
             resolved,
             transmission,
-        })
+            load_sharings: Vec::new(),
+        };
+        checked.load_sharings = load_sharing::load_sharings(language, &checked);
+        Ok(checked)
     }
 
     /// Reads a gearbox of a source with all its model sets, resolves and builds it.

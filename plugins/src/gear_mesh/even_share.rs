@@ -29,10 +29,7 @@ struct EvenShare(Factor);
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<EvenShare, Diagnostic> {
     let friction = cx.slot("mean_friction", &params.mean_friction)?;
     let part = cx.own_part::<GearMesh>()?;
-    Ok(EvenShare(Factor {
-        value: part.pair.loss_factor_uniform(),
-        friction,
-    }))
+    Ok(EvenShare(Factor::new(part.pair.loss_factor_uniform(), friction)))
 }
 
 impl GearMeshLaw for EvenShare {

@@ -1,5 +1,7 @@
 //! Power times mean friction times a tooth loss factor, shared by several models.
 
+use gearloss_framework::contact::sharing::{Knots, Sharing};
+use gearloss_framework::geometry::Pair;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
@@ -16,11 +18,31 @@ observed! {
 
 /// A loss factor with its mean friction law.
 pub struct Factor {
-    pub value: f64,
-    pub friction: Slot<MeanFriction>,
+    knots: Knots,
+    /// The loss factor at each knot of the load sharing.
+    values: Vec<f64>,
+    friction: Slot<MeanFriction>,
 }
 
 impl Factor {
+    /// A factor that does not depend on the load.
+    pub fn new(value: f64, friction: Slot<MeanFriction>) -> Self {
+        Self {
+            knots: Knots::ONE,
+            values: vec![value],
+            friction,
+        }
+    }
+
+    /// The local factor of a load sharing.
+    pub fn of_sharing(pair: &Pair, sharing: &Sharing, friction: Slot<MeanFriction>) -> Self {
+        Self {
+            knots: sharing.knots(),
+            values: sharing.loss_factors(pair),
+            friction,
+        }
+    }
+
     #[inline(always)]
     pub fn loss<R: Answers>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
         let idle = at.speed.is_zero() | at.torque.is_zero();
@@ -31,7 +53,8 @@ impl Factor {
         let at = &at.with(|to| to.notes = to.notes.among(!idle));
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes.nested(self.friction.notes));
         let mu = at.observe(&MU, R::answer::<MeanFriction>(&*self.friction, &mean)?);
-        let factor = at.observe(&LOSS_FACTOR, R::constant(self.value));
+        let line_load = at.part.pair.line_load(mean.normal_force);
+        let factor = at.observe(&LOSS_FACTOR, self.knots.between(line_load, &self.values));
         let input = at.show("P_in", "W", at.torque * at.speed.abs());
         let watts = at.show("P", "W", input * mu * factor);
         Ok(Loss::POWERS.with(&SLIDING, R::select(idle, R::ZERO, watts)))

@@ -35,10 +35,7 @@ struct Ohlendorf(Factor);
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Ohlendorf, Diagnostic> {
     let friction = cx.slot("mean_friction", &params.mean_friction)?;
     let part = cx.own_part::<GearMesh>()?;
-    Ok(Ohlendorf(Factor {
-        value: part.pair.loss_factor_ohlendorf(),
-        friction,
-    }))
+    Ok(Ohlendorf(Factor::new(part.pair.loss_factor_ohlendorf(), friction)))
 }
 
 impl GearMeshLaw for Ohlendorf {

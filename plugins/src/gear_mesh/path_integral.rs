@@ -5,7 +5,8 @@
 //! An option averages over the travel of one tooth with double contact counted twice, as in equation 3 of Shen and Rinderknecht
 //! (Modelling of transmission losses with parameter identification); for constant friction the result is 20 % above the mesh-cycle
 //! average of an FZG C gear.
-//! Assumes rigid teeth with a stated load sharing among pairs of teeth. The line load is the normal force of the pair over the length of its
+//! Assumes a load sharing among pairs of teeth: a fixed one, or one that depends on the load (a relief, a file, thin slices), whose loss is
+//! interpolated between some loads. The line load is the normal force of the pair over the length of its
 //! line of contact, b/cos beta_b for helical teeth: F_bt/b times the share.
 //! Rolling friction is optional. One law is Goksem and Hargreaves, J. Lubr. Tech. 100 (1978) 346-352, times the factor for film
 //! thinning by inlet heating (Gupta et al. in the form of Arana et al. 2019; at least a twentieth, where the fit ends), because the
@@ -19,8 +20,9 @@
 
 use std::sync::Arc;
 
+use gearloss_framework::contact::sharing::{Knots, SharingEntry};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::geometry::{LoadSharing, PathPoint};
+use gearloss_framework::geometry::PathPoint;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw, MeshPart};
@@ -86,7 +88,7 @@ pub enum RollingSpeed {
 pub struct PathIntegral {
     /// Load sharing among pairs of teeth in contact.
     #[serde(default)]
-    pub load_sharing: LoadSharing,
+    pub load_sharing: SharingEntry,
     /// Domain of averaging.
     #[serde(default)]
     pub average: Average,
@@ -109,16 +111,17 @@ fn yes() -> bool {
 
 /// The path of one mesh, prepared.
 struct Integral {
-    /// The path with its local loss factor.
-    path: Arc<(FrictionPath, f64)>,
+    /// The path with its local loss factor at each knot of the load sharing.
+    path: Arc<(FrictionPath, Vec<f64>)>,
     friction: Slot<ToothFriction>,
-    rolling: Option<RollingPath>,
+    rolling: Option<Vec<RollingPath>>,
 }
 
 fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnostic> {
     let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
-    let part = cx.own_part::<GearMesh>()?;
-    let (pair, sharing, average) = (part.pair, params.load_sharing, params.average);
+    let part = cx.own_part::<GearMesh>()?.clone();
+    let (pair, average) = (part.pair, params.average);
+    let sharing = cx.load_sharing(&part, &params.load_sharing)?;
     let [start, .., end] = pair.points;
     let weight = |p: &PathPoint| match average {
         Average::BasePitch => p.weight / pair.base_pitch,
@@ -126,15 +129,23 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
     };
     // It does not depend on oil and roughness of the part.
     let orders = (friction.order(), friction.kinked_order(), friction.friction_limits());
-    let path = cx.repeat("path", (pair, sharing, average, orders), |_| -> Result<_, String> {
-        let path = FrictionPath::new(&pair, sharing, &*friction)?.weighted(weight);
-        Ok(Arc::new((path, pair.loss_factor_local(sharing))))
-    });
+    let path = cx.repeat(
+        "path",
+        (pair, sharing.clone(), average, orders),
+        |_| -> Result<_, String> {
+            let path = FrictionPath::new(&pair, &sharing, &*friction)?.weighted(weight);
+            Ok(Arc::new((path, sharing.loss_factors(&pair))))
+        },
+    );
     let path = path.map_err(|fault| cx.error(fault))?;
-    let few = path.0.few();
-    let weights: Vec<f64> = few.points().iter().map(weight).collect();
+    let rolling = path.0.all_few().map(|few| {
+        // What rolls is the part of the face that carries load.
+        let touching = |p: &PathPoint| if p.line > 0.0 { p.share / p.line } else { 0.0 };
+        let weights: Vec<f64> = few.points().iter().map(|p| weight(p) * touching(p)).collect();
+        RollingPath::new(&params, &part, few.nodes(), &weights)
+    });
     Ok(Integral {
-        rolling: RollingPath::new(&params, cx.own_part::<GearMesh>()?, few.nodes(), &weights),
+        rolling: rolling.collect(),
         path,
         friction,
     })
@@ -230,6 +241,24 @@ impl RollingPath {
     }
 }
 
+/// Power of rolling friction of the paths at the knots of a load sharing. \[W\]
+#[inline(always)]
+fn rolling_power<R: Real>(paths: &[RollingPath], knots: &Knots, at: &GearMeshAt<'_, R>, path: &PathAt<'_, R>) -> R {
+    if let [only] = paths {
+        return only.power(at, path);
+    }
+    let place = knots.place(path.line_load);
+    let mut sum = R::ZERO;
+    for (knot, rolling) in paths.iter().enumerate() {
+        let part = knots.part(knot, place);
+        let counts = part.is_above(R::ZERO);
+        if counts.any() {
+            sum += R::select(counts, rolling.power(at, path) * part, R::ZERO);
+        }
+    }
+    sum
+}
+
 impl GearMeshLaw for Integral {
     #[inline(always)]
     fn loss<R: Answers>(&self, at: &GearMeshAt<'_, R>) -> Result<Loss<R>, Undefined> {
@@ -243,7 +272,7 @@ impl GearMeshLaw for Integral {
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
         let bodies = at.bodies()?;
-        let (path, loss_factor) = &*self.path;
+        let (path, loss_factors) = &*self.path;
         let at_path = path
             .few()
             .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
@@ -251,7 +280,7 @@ impl GearMeshLaw for Integral {
         at.show("F_bt/b", "N/m", at_path.line_load);
         let friction = path.friction(&*self.friction, &at_path)?;
         at.observe(&MU_MEAN, friction.mean);
-        at.observe(&LOSS_FACTOR, R::constant(*loss_factor));
+        at.observe(&LOSS_FACTOR, path.knots().between(at_path.line_load, loss_factors));
         let watts = at.show("P_s", "W", friction.sliding * normal * speed);
         let loss = Loss::POWERS
             .with(&SLIDING, R::select(idle, R::ZERO, watts))
@@ -259,7 +288,7 @@ impl GearMeshLaw for Integral {
         let Some(rolling) = &self.rolling else {
             return Ok(loss);
         };
-        let rolling = at.show("P_r", "W", rolling.power(at, &at_path));
+        let rolling = at.show("P_r", "W", rolling_power(rolling, path.knots(), at, &at_path));
         Ok(loss.with(&ROLLING, R::select(idle, R::ZERO, rolling)))
     }
 }

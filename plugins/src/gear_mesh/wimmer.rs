@@ -4,8 +4,8 @@
 //! the speed of the base circle. With half of the load on each pair in double contact it equals the factor of Ohlendorf. It is also
 //! valid if the pitch point is outside the path of contact, for more than two pairs, and for any load sharing.
 
+use gearloss_framework::contact::sharing::SharingEntry;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt, GearMeshLaw};
@@ -23,7 +23,7 @@ use crate::checks::{SIX_DIGITS, helical, internal};
 pub struct Params {
     /// Load sharing among pairs of teeth in contact.
     #[serde(default)]
-    pub load_sharing: LoadSharing,
+    pub load_sharing: SharingEntry,
     /// Law of the mean coefficient of friction.
     pub mean_friction: ModelRef<MeanFriction>,
 }
@@ -32,11 +32,9 @@ struct Wimmer(Factor);
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Wimmer, Diagnostic> {
     let friction = cx.slot("mean_friction", &params.mean_friction)?;
-    let part = cx.own_part::<GearMesh>()?;
-    Ok(Wimmer(Factor {
-        value: part.pair.loss_factor_local(params.load_sharing),
-        friction,
-    }))
+    let part = cx.own_part::<GearMesh>()?.clone();
+    let sharing = cx.load_sharing(&part, &params.load_sharing)?;
+    Ok(Wimmer(Factor::of_sharing(&part.pair, &sharing, friction)))
 }
 
 impl GearMeshLaw for Wimmer {

@@ -4,8 +4,8 @@
 //! the loss of the path integral. The pitch point has pure rolling: that option is intended for laws of mixed friction whose
 //! publications evaluate them there.
 
+use gearloss_framework::contact::sharing::SharingEntry;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, MeanFrictionLaw};
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, ToothFriction};
@@ -53,7 +53,7 @@ pub struct Params {
     pub at: Where,
     /// Load sharing among pairs of teeth in contact.
     #[serde(default)]
-    pub load_sharing: LoadSharing,
+    pub load_sharing: SharingEntry,
 }
 
 struct Local {
@@ -72,8 +72,9 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Local, Diagnostic> {
             ))
             .help("write `at: path`, or choose a law of mixed friction"));
     }
-    let part = cx.own_part::<MeanFriction>()?;
-    let path = FrictionPath::new(&part.pair, params.load_sharing, &*friction).map_err(|fault| cx.error(fault))?;
+    let part = cx.own_part::<MeanFriction>()?.clone();
+    let sharing = cx.load_sharing(&part, &params.load_sharing)?;
+    let path = FrictionPath::new(&part.pair, sharing, &*friction).map_err(|fault| cx.error(fault))?;
     Ok(Local {
         at: params.at,
         path,

@@ -5,6 +5,7 @@
 //! default: crowned teeth have a higher pressure in its middle, by 10 % for the hypoid example of ISO/TR 10300-30.
 //! These are indicators, not safety factors of ISO 10300. A flash temperature is not rated: that of hypoid flanks (ISO/TR 22849) was not readable.
 
+use gearloss_framework::contact::sharing::{Sharing, SharingEntry};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::Undefined;
@@ -41,9 +42,10 @@ struct Both([Prepared; 2]);
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Both, Diagnostic> {
     let part = cx.own_part::<BevelMesh>()?;
+    let sharing = Sharing::Fixed(params.load_sharing);
     let of_flanks = |i: usize| {
         let params = FlankContact {
-            load_sharing: params.load_sharing,
+            load_sharing: SharingEntry::Fixed(params.load_sharing),
             film: gearloss_framework::contact::Film::default(),
             thermal: true,
             least_film_ratio: params.least_film_ratio,
@@ -51,7 +53,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Both, Diagnostic> {
             permissible_film_ratio: None,
             least_safety: 1.0,
         };
-        Prepared::new(params, &part.flanks[i].pair)
+        Prepared::new(params, &part.flanks[i].pair, &sharing)
     };
     Ok(Both([of_flanks(0), of_flanks(1)]))
 }

@@ -1,7 +1,8 @@
 //! The path of contact of a mesh at one point, for ratings of flanks.
 
 use gearloss_framework::contact::path::Path;
-use gearloss_framework::geometry::{LoadSharing, Pair};
+use gearloss_framework::contact::sharing::{Knots, Sharing};
+use gearloss_framework::geometry::{Line, Pair, PathPoint};
 use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
 use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathNode};
@@ -9,32 +10,83 @@ use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathNode};
 /// Points on each section of the path besides its ends, where pressure and flash temperature jump and mostly have their maxima.
 const ORDER: usize = 14;
 
-/// The path of a pair; `None` if it has no involute flanks, or too many pairs in contact.
-pub fn path(pair: &Pair, sharing: LoadSharing) -> Option<Path> {
-    let [start, .., end] = pair.points;
-    let is_involute = end > start && pair.contact_ratio.is_finite();
-    is_involute
-        .then(|| Path::with_ends(pair, sharing, ORDER).ok())
-        .flatten()
+/// The path of a pair at the knots of its load sharing, with the greatest line load along the face; all have the same points.
+pub struct RatedPath {
+    knots: Knots,
+    paths: Vec<Path>,
 }
 
-/// Calls a function with each loaded contact of the path, its node and its number; not without speed or torque.
-pub fn contacts(
-    path: &Path,
-    at: &GearMeshAt<'_>,
-    mean: &MeanFrictionAt<'_>,
-    mut each: impl FnMut(usize, &PathNode, &ContactAt<'_>),
-) {
-    let along = path.at_operating_point(mean, at.notes);
-    for (i, node) in path.nodes().iter().enumerate().filter(|(_, node)| node.share > 0.0) {
-        each(i, node, &along.contact(node));
+impl RatedPath {
+    /// The path of a pair; `None` if it has no involute flanks, or too many pairs in contact.
+    pub fn new(pair: &Pair, sharing: &Sharing) -> Option<Self> {
+        let [start, .., end] = pair.points;
+        if end <= start || !pair.contact_ratio.is_finite() {
+            return None;
+        }
+        let paths: Result<Vec<Path>, String> = match sharing {
+            Sharing::Fixed(sharing) => Path::with_ends(pair, *sharing, ORDER).map(|path| vec![path]),
+            Sharing::Loaded(shares) => {
+                let of = |table| Path::of_table(pair, table, Line::Peak, ORDER);
+                shares.tables().iter().map(of).collect()
+            }
+        };
+        Some(Self {
+            knots: sharing.knots(),
+            paths: paths.ok()?,
+        })
+    }
+
+    /// The points of the path.
+    pub fn points(&self) -> &[PathPoint] {
+        self.paths[0].points()
+    }
+
+    /// Line load at a point over that of one pair alone, under a line load of the mesh in N/m.
+    pub fn line(&self, point: usize, line_load: f64) -> f64 {
+        match &self.paths[..] {
+            [only] => only.nodes()[point].share,
+            paths => {
+                let place = self.knots.place(line_load);
+                let part = |(knot, path): (usize, &Path)| self.knots.part(knot, place) * path.nodes()[point].share;
+                paths.iter().enumerate().map(part).sum()
+            }
+        }
+    }
+
+    /// Number of the point next to the pitch point.
+    pub fn at_pitch_point(&self, pair: &Pair) -> usize {
+        let points = self.points();
+        let distance = |i: usize| (points[i].x - pair.points[2]).abs();
+        (0..points.len())
+            .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
+            .unwrap_or(0)
     }
 }
 
-/// Number of the node next to the pitch point.
-pub fn at_pitch_point(path: &Path, pair: &Pair) -> usize {
-    let distance = |i: usize| (path.points()[i].x - pair.points[2]).abs();
-    (0..path.len())
-        .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
-        .unwrap_or(0)
+/// Calls a function with the number of each loaded point of the path and its contact; not without speed or torque.
+pub fn contacts(
+    path: &RatedPath,
+    at: &GearMeshAt<'_>,
+    mean: &MeanFrictionAt<'_>,
+    mut each: impl FnMut(usize, &ContactAt<'_>),
+) {
+    let first = &path.paths[0];
+    let along = first.at_operating_point(mean, at.notes);
+    for (i, node) in first.nodes().iter().enumerate() {
+        if path.paths.len() == 1 {
+            if node.share > 0.0 {
+                each(i, &along.contact(node));
+            }
+            continue;
+        }
+        let line = path.line(i, along.line_load);
+        if line > 0.0 {
+            let node = PathNode {
+                weight: node.weight,
+                first_faster: node.first_faster,
+                ..PathNode::new(node.sliding, node.sum_speed, node.radius, line)
+            };
+            each(i, &along.contact(&node));
+        }
+    }
 }

@@ -7,10 +7,10 @@
 //! These are indicators, not safety factors of ISO 6336: without load distribution factors, profile modifications and the roughness term of
 //! the standards, and with the viscosity of the oil, not of the warmer flank. Pitting and bending strength are not rated.
 
-use gearloss_framework::contact::path::Path;
+use gearloss_framework::contact::sharing::{Sharing, SharingEntry};
 use gearloss_framework::contact::{Film, film};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::geometry::{LoadSharing, Pair};
+use gearloss_framework::geometry::Pair;
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::ShopUnits as _;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt};
@@ -21,7 +21,8 @@ use gearloss_framework::registry::{Build, Check, Evidence, default_of, formula};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{at_least_unless_zero, flank};
+use super::at_least_unless_zero;
+use super::flank::{self, RatedPath};
 
 pub(super) const AT_PITCH: Figure = Figure::greatest("p_HC", "MPa", "Hertzian pressure at the pitch point");
 pub(super) const PRESSURE: Figure =
@@ -38,7 +39,7 @@ const MICROPITTING: Figure = Figure::least("S_lambda", "-", "indicator of microp
 pub struct FlankContact {
     /// Load sharing among pairs of teeth in contact.
     #[serde(default)]
-    pub load_sharing: LoadSharing,
+    pub load_sharing: SharingEntry,
     /// Film formula.
     #[serde(default)]
     pub film: Film,
@@ -72,12 +73,14 @@ fn one() -> f64 {
 /// The rating of a pair of flanks with its path.
 pub(super) struct Prepared {
     params: FlankContact,
-    path: Option<Path>,
+    path: Option<RatedPath>,
     pitch: usize,
 }
 
 fn prepare(params: FlankContact, cx: &mut Build<'_>) -> Result<Prepared, Diagnostic> {
-    Ok(Prepared::new(params, &cx.own_part::<GearMesh>()?.pair))
+    let part = cx.own_part::<GearMesh>()?.clone();
+    let sharing = cx.load_sharing(&part, &params.load_sharing)?;
+    Ok(Prepared::new(params, &part.pair, &sharing))
 }
 
 impl Rating<GearMesh> for Prepared {
@@ -88,10 +91,10 @@ impl Rating<GearMesh> for Prepared {
 }
 
 impl Prepared {
-    pub(super) fn new(params: FlankContact, pair: &Pair) -> Self {
-        let path = flank::path(pair, params.load_sharing);
+    pub(super) fn new(params: FlankContact, pair: &Pair, sharing: &Sharing) -> Self {
+        let path = RatedPath::new(pair, sharing);
         Self {
-            pitch: path.as_ref().map_or(0, |path| flank::at_pitch_point(path, pair)),
+            pitch: path.as_ref().map_or(0, |path| path.at_pitch_point(pair)),
             path,
             params,
         }
@@ -109,14 +112,15 @@ impl Prepared {
         let params = &self.params;
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let (mut pressure, mut thinnest) = (0.0_f64, f64::INFINITY);
-        flank::contacts(path, at, &mean, |_, _, contact| {
+        flank::contacts(path, at, &mean, |_, contact| {
             pressure = pressure.max(contact.pressure);
             thinnest = thinnest.min(film(contact, params.film, params.thermal));
         });
-        let share = path.nodes()[self.pitch].share;
+        let whole = mean.part.pair.line_load(mean.normal_force);
+        let share = path.line(self.pitch, whole);
         at.show("F_bn", "N", mean.normal_force);
         at.show("rho_C", "mm", mean.radius.mm());
-        let line_load = mean.part.pair.line_load(mean.normal_force) * share;
+        let line_load = whole * share;
         let at_pitch = hertz(line_load, mean.part.modulus, mean.radius);
         to.add(&AT_PITCH, at.show("p_HC", "MPa", at_pitch * 1e-6));
         let bound = params

@@ -8,9 +8,8 @@
 //! An indicator: without the load factors, the approach factor and the tip relief of ISO/TS 6336-20. The scuffing temperature of an oil
 //! comes from a test and must be stated.
 
-use gearloss_framework::contact::path::Path;
+use gearloss_framework::contact::sharing::SharingEntry;
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt};
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
@@ -21,7 +20,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
 
-use super::flank;
+use super::flank::{self, RatedPath};
 use crate::tooth_friction::ehl_mixed::contact::Contact;
 use crate::tooth_friction::ehl_mixed::temperature::{Flank, blok};
 
@@ -35,7 +34,7 @@ const SCUFFING: Figure = Figure::least("S_B", "-", "indicator of scuffing");
 pub struct FlashTemperature {
     /// Load sharing among pairs of teeth in contact.
     #[serde(default)]
-    pub load_sharing: LoadSharing,
+    pub load_sharing: SharingEntry,
     /// Law of the mean coefficient of friction; default: `iso_13989`.
     pub mean_friction: Option<ModelRef<MeanFriction>>,
     /// Rise of the bulk temperature above the oil over the mean flash temperature: 0.47 for dip, 0.56 for injection lubrication; not used
@@ -88,7 +87,7 @@ fn one() -> f64 {
 /// The rating with the path of its mesh and its friction law.
 struct Prepared {
     params: FlashTemperature,
-    path: Option<Path>,
+    path: Option<RatedPath>,
     friction: Slot<MeanFriction>,
 }
 
@@ -96,9 +95,10 @@ fn prepare(params: FlashTemperature, cx: &mut Build<'_>) -> Result<Prepared, Dia
     let default = || ModelRef::new(json!({ "type": "iso_13989" }));
     let chosen = params.mean_friction.clone().unwrap_or_else(default);
     let friction = cx.slot("mean_friction", &chosen)?;
-    let pair = &cx.own_part::<GearMesh>()?.pair;
+    let part = cx.own_part::<GearMesh>()?.clone();
+    let sharing = cx.load_sharing(&part, &params.load_sharing)?;
     Ok(Prepared {
-        path: flank::path(pair, params.load_sharing),
+        path: RatedPath::new(&part.pair, &sharing),
         friction,
         params,
     })
@@ -123,7 +123,7 @@ impl Rating<GearMesh> for Prepared {
             heat_capacity: params.heat_capacity,
         };
         let (mut greatest, mut sum, mut length) = (0.0_f64, 0.0, 0.0);
-        flank::contacts(path, at, &mean, |i, _, contact| {
+        flank::contacts(path, at, &mean, |i, contact| {
             let speeds = [1.0, -1.0].map(|side| 0.5 * (contact.sum_speed + side * contact.sliding).max(0.0));
             let place = Contact::new(
                 contact.line_load,

@@ -1,7 +1,8 @@
 //! The path of contact of one mesh, prepared for local friction laws.
 
 use super::cut_off::CutOff;
-use crate::geometry::{LoadSharing, Pair, PathPoint};
+use super::sharing::{Knots, Sharing};
+use crate::geometry::{Line, LoadSharing, Pair, PathPoint, ShareTable};
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::Answers;
 use crate::mechanism::mean_friction::MeanFrictionAt;
@@ -84,6 +85,14 @@ impl Path {
         Self::checked(pair, pair.graded_path_with_ends(sharing, order))
     }
 
+    /// The path of a pair with the shares of a table; with both ends of every section if the greatest values are wanted.
+    ///
+    /// # Errors
+    /// As [`Path::new`].
+    pub fn of_table(pair: &Pair, table: &ShareTable, line: Line, order: usize) -> Result<Self, String> {
+        Self::checked(pair, pair.graded_path_of(table, line, order, line == Line::Peak))
+    }
+
     /// The path of a pair through points with their weights.
     pub fn from_points(pair: &Pair, points: Vec<PathPoint>) -> Self {
         let nodes: Vec<PathNode> = points
@@ -95,7 +104,7 @@ impl Path {
                     pair.sliding(p.x),
                     pair.sum_speed(p.x),
                     pair.relative_radius(p.x),
-                    p.share,
+                    p.line,
                 )
             })
             .collect();
@@ -130,7 +139,16 @@ impl Path {
 
     /// Equidistant points over the whole path, including its ends; for display, not for integrals.
     pub fn even(pair: &Pair, sharing: LoadSharing, places: usize) -> Self {
-        let mut path = Self::from_points(pair, pair.even_path(sharing, places));
+        Self::from_even(pair, pair.even_path(sharing, places))
+    }
+
+    /// As [`Path::even`], with the shares of a table.
+    pub fn even_of_table(pair: &Pair, table: &ShareTable, line: Line, places: usize) -> Self {
+        Self::from_even(pair, pair.even_path_of(table, line, places))
+    }
+
+    fn from_even(pair: &Pair, points: Vec<PathPoint>) -> Self {
+        let mut path = Self::from_points(pair, points);
         // The trapezoidal rule, for laws that need a mean over the path.
         let last = path.nodes.len() - 1;
         for (i, node) in path.nodes.iter_mut().enumerate() {
@@ -234,21 +252,17 @@ pub struct PathFriction<R = f64> {
     pub first_heat: R,
 }
 
-/// The path of one mesh with as many points as its friction law requires: few, and many where the law has a kink.
-pub struct FrictionPath {
+/// The path of one mesh at one load, with as many points as its friction law requires: few, and many where the law has a kink.
+struct PathState {
     few: Path,
     many: Option<Path>,
     cut_off: Option<CutOff>,
 }
 
-impl FrictionPath {
-    /// The path of a pair with its load sharing for a friction law.
-    ///
-    /// # Errors
-    /// As [`Path::new`].
-    pub fn new(pair: &Pair, sharing: LoadSharing, law: &dyn ToothFrictionModel) -> Result<Self, String> {
-        let many = law.kinked_order().map(|order| Path::new(pair, sharing, order));
-        let few = Path::new(pair, sharing, law.order())?;
+impl PathState {
+    fn new(law: &dyn ToothFrictionModel, path: impl Fn(usize) -> Result<Path, String>) -> Result<Self, String> {
+        let many = law.kinked_order().map(&path);
+        let few = path(law.order())?;
         Ok(Self {
             cut_off: law
                 .friction_limits()
@@ -258,8 +272,7 @@ impl FrictionPath {
         })
     }
 
-    /// As [`Path::weighted`].
-    pub fn weighted(self, weight: impl Fn(&PathPoint) -> f64) -> Self {
+    fn weighted(self, weight: impl Fn(&PathPoint) -> f64) -> Self {
         let few = self.few.weighted(&weight);
         Self {
             cut_off: self.cut_off.map(|cut_off| cut_off.weighted(&few)),
@@ -268,17 +281,8 @@ impl FrictionPath {
         }
     }
 
-    /// The path with few points.
-    pub fn few(&self) -> &Path {
-        &self.few
-    }
-
-    /// The friction of the law at an operating point of the path with few points.
-    ///
-    /// # Errors
-    /// If the law is undefined.
     #[inline(always)]
-    pub fn friction<R: Answers>(
+    fn friction<R: Answers>(
         &self,
         law: &dyn ToothFrictionModel,
         at: &PathAt<'_, R>,
@@ -299,6 +303,110 @@ impl FrictionPath {
             mean: R::select(kink, many.mean, few.mean),
             arm: R::select(kink, many.arm, few.arm),
             first_heat: R::select(kink, many.first_heat, few.first_heat),
+        })
+    }
+}
+
+/// The path of one mesh for a friction law: one of a load sharing that does not depend on the load, else one at each of its knots, between
+/// which the friction is interpolated.
+pub struct FrictionPath {
+    knots: Knots,
+    states: Vec<PathState>,
+}
+
+impl FrictionPath {
+    /// The path of a pair with its load sharing for a friction law.
+    ///
+    /// # Errors
+    /// As [`Path::new`].
+    pub fn new(pair: &Pair, sharing: impl Into<Sharing>, law: &dyn ToothFrictionModel) -> Result<Self, String> {
+        let sharing = sharing.into();
+        let states: Result<Vec<PathState>, String> = match &sharing {
+            Sharing::Fixed(sharing) => {
+                PathState::new(law, |order| Path::new(pair, *sharing, order)).map(|state| vec![state])
+            }
+            Sharing::Loaded(shares) => {
+                let of = |table| PathState::new(law, |order| Path::of_table(pair, table, Line::Mean, order));
+                shares.tables().iter().map(of).collect()
+            }
+        };
+        Ok(Self {
+            knots: sharing.knots(),
+            states: states?,
+        })
+    }
+
+    /// As [`Path::weighted`].
+    pub fn weighted(self, weight: impl Fn(&PathPoint) -> f64) -> Self {
+        let states = self.states.into_iter();
+        Self {
+            states: states.map(|state| state.weighted(&weight)).collect(),
+            ..self
+        }
+    }
+
+    /// The path with few points, at the first knot.
+    pub fn few(&self) -> &Path {
+        &self.states[0].few
+    }
+
+    /// The paths with few points at all knots.
+    pub fn all_few(&self) -> impl Iterator<Item = &Path> {
+        self.states.iter().map(|state| &state.few)
+    }
+
+    /// The knots of the load sharing.
+    pub fn knots(&self) -> &Knots {
+        &self.knots
+    }
+
+    /// The friction of the law at an operating point of the path with few points.
+    ///
+    /// # Errors
+    /// If the law is undefined.
+    #[inline(always)]
+    pub fn friction<R: Answers>(
+        &self,
+        law: &dyn ToothFrictionModel,
+        at: &PathAt<'_, R>,
+    ) -> Result<PathFriction<R>, Undefined> {
+        match &self.states[..] {
+            [only] => only.friction(law, at),
+            states => self.friction_between(states, law, at),
+        }
+    }
+
+    /// The friction between the knots next to the load of each point.
+    fn friction_between<R: Answers>(
+        &self,
+        states: &[PathState],
+        law: &dyn ToothFrictionModel,
+        at: &PathAt<'_, R>,
+    ) -> Result<PathFriction<R>, Undefined> {
+        let place = self.knots.place(at.line_load);
+        let (mut sliding, mut weight, mut arm, mut first_heat) = (R::ZERO, R::ZERO, R::ZERO, R::ZERO);
+        for (knot, state) in states.iter().enumerate() {
+            let part = self.knots.part(knot, place);
+            let counts = part.is_above(R::ZERO);
+            if counts.bits() & at.notes.points() == 0 {
+                continue;
+            }
+            let at = at.with(|to| {
+                (to.nodes, to.extent) = (&state.few.nodes, &state.few.extent);
+                to.notes = to.notes.among(counts);
+            });
+            let found = state.friction(law, &at)?;
+            let of = |x: R| R::select(counts, x * part, R::ZERO);
+            sliding += of(found.sliding);
+            weight += of(R::constant(state.few.weight));
+            arm += of(found.arm);
+            first_heat += of(found.first_heat);
+        }
+        Ok(PathFriction {
+            sliding,
+            mean: sliding / weight,
+            arm,
+            first_heat,
         })
     }
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::housing::WallClearance;
 use super::shafts::Unsupported;
+use crate::contact::sharing::modification::FlankModification;
 use crate::mechanism::clutch::Clutch;
 use crate::mechanism::differential::{Differential, DifferentialGears};
 use crate::mechanism::gear_drag::GearDrag;
@@ -56,6 +57,8 @@ pub struct GearEntry {
     pub root_diameter: Option<f64>,
     /// Flanks; default: those of the gearbox.
     pub surface: Option<Surface>,
+    /// Reliefs, crowning and slopes of the flanks of a cylindrical gear, for `load_sharing: { type: slices }`.
+    pub modification: Option<FlankModification>,
     /// Oil height above the gear's axis, if it runs in a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
@@ -185,6 +188,11 @@ pub struct MeshEntry {
     #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
     #[schemars(range(min = 0.0, max = 0.49))]
     pub poisson: f64,
+    /// Misalignment of the flanks over the face width, from deflections and bores, for `load_sharing: { type: slices }`; positive if the end
+    /// of the face opens. [um]
+    #[serde(default)]
+    #[schemars(range(min = -1000.0, max = 1000.0))]
+    pub misalignment: f64,
     /// Tip shortening maintains the tip clearance of external gears with profile shift.
     #[serde(default = "yes")]
     pub tip_shortening: bool,

@@ -7,6 +7,7 @@ use super::contact_lines::ContactLines;
 use super::gauss;
 use super::pair::Pair;
 use super::ramp::Ramp;
+use super::share_table::ShareTable;
 
 /// Load sharing among pairs of teeth in contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -38,8 +39,10 @@ pub struct PathPoint {
     pub x: f64,
     /// Weight of the point in an integral along the path. \[m\]
     pub weight: f64,
-    /// Share of the mesh's normal force that this pair of teeth carries, and of the line load under the full force.
+    /// Share of the mesh's normal force that this pair of teeth carries.
     pub share: f64,
+    /// Line load of this pair over that of one pair under the full force; the share, unless the load along the face is uneven.
+    pub line: f64,
     /// Number of pairs in contact.
     pub pairs: usize,
 }
@@ -107,12 +110,66 @@ impl Pair {
     }
 
     fn place(&self, x: f64, weight: f64, law: &Law) -> PathPoint {
+        let share = law.share(self, x);
         PathPoint {
             x,
             weight,
-            share: law.share(self, x),
+            share,
+            line: share,
             pairs: self.pairs_at(x),
         }
+    }
+
+    fn place_of(&self, x: f64, weight: f64, (table, line): (&ShareTable, Line)) -> PathPoint {
+        let row = table.at(x);
+        PathPoint {
+            x,
+            weight,
+            share: row.share,
+            line: match line {
+                Line::Mean => row.line,
+                Line::Peak => row.peak,
+            },
+            pairs: self.pairs_at(x),
+        }
+    }
+
+    /// Equidistant points as those of [`Self::even_path`], with the shares of a table.
+    pub fn even_path_of(&self, table: &ShareTable, line: Line, places: usize) -> Vec<PathPoint> {
+        let [start, .., end] = self.points;
+        let step = (end - start) / (places.max(2) - 1) as f64;
+        (0..places.max(2))
+            .map(|i| self.place_of((start + step * i as f64).min(end), 0.0, (table, line)))
+            .collect()
+    }
+
+    /// Quadrature points as those of [`Self::graded_path`], with the shares of a table. On each section the shares have the integral of share
+    /// times sliding that the table has, so that the loss under constant friction does not depend on the number of points. All tables of a
+    /// pair have the same points.
+    pub fn graded_path_of(&self, table: &ShareTable, line: Line, order: usize, with_ends: bool) -> Vec<PathPoint> {
+        let mut breaks = self.breaks();
+        self.break_beside_bases(&mut breaks);
+        let rule = if with_ends {
+            rule_with_ends(order)
+        } else {
+            gauss::graded_rule(order)
+        };
+        let mut points = Vec::new();
+        for piece in breaks.windows(2) {
+            let (middle, half) = (0.5 * (piece[0] + piece[1]), 0.5 * (piece[1] - piece[0]));
+            let first = points.len();
+            for (t, w) in &rule {
+                points.push(self.place_of(middle + half * t, half * w, (table, line)));
+            }
+            let arm = |p: &PathPoint| p.weight * p.share * (p.x - self.points[2]).abs();
+            let sum: f64 = points[first..].iter().map(arm).sum();
+            let exact = table.moment(self, [piece[0], piece[1]]);
+            if sum > 0.0 && exact > 0.0 {
+                let factor = exact / sum;
+                points[first..].iter_mut().for_each(|p| p.share *= factor);
+            }
+        }
+        points
     }
 
     /// Quadrature points, `order` on each smooth section; for integer powers of the position.
@@ -128,11 +185,7 @@ impl Pair {
 
     /// As [`Self::graded_path`], with both ends of every section in addition. They have no weight, and the share of their section.
     pub(crate) fn graded_path_with_ends(&self, sharing: LoadSharing, order: usize) -> Vec<PathPoint> {
-        let end = 1.0 - 2.0 * INSIDE;
-        let mut rule = gauss::graded_rule(order);
-        rule.insert(0, (-end, 0.0));
-        rule.push((end, 0.0));
-        self.points_of(sharing, &rule)
+        self.points_of(sharing, &rule_with_ends(order))
     }
 
     fn points_of(&self, sharing: LoadSharing, rule: &[(f64, f64)]) -> Vec<PathPoint> {
@@ -165,6 +218,24 @@ impl Pair {
         }
         points
     }
+}
+
+/// Which line load along the face the points of a path have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Line {
+    /// That with the friction of the whole face.
+    Mean,
+    /// The greatest.
+    Peak,
+}
+
+/// The graded rule with both ends of a section, which have no weight.
+fn rule_with_ends(order: usize) -> Vec<(f64, f64)> {
+    let end = 1.0 - 2.0 * INSIDE;
+    let mut rule = gauss::graded_rule(order);
+    rule.insert(0, (-end, 0.0));
+    rule.push((end, 0.0));
+    rule
 }
 
 /// A load sharing, prepared for one pair.

@@ -5,6 +5,8 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::contact::sharing::modification::FlankModification;
+use crate::contact::sharing::stiffness::Elastic;
 use crate::description::gears::ShiftSign;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::loss::{Loss, Term, Undefined};
@@ -76,6 +78,12 @@ pub struct PairEntry {
     #[serde(default = "steel_poisson")]
     #[schemars(range(min = 0.0, max = 0.49))]
     pub poisson: f64,
+    /// Modifications of the flanks of both gears, for load sharing in thin slices.
+    pub modification: Option<[FlankModification; 2]>,
+    /// Misalignment of the flanks over the face width, positive if the end of the face opens. [um]
+    #[serde(default)]
+    #[schemars(range(min = -1000.0, max = 1000.0))]
+    pub misalignment: f64,
 }
 
 /// Young's modulus of steel. \[Pa\]
@@ -100,6 +108,12 @@ pub struct MeshPart {
     pub rq: f64,
     /// Reduced modulus E/(1 - nu^2). \[Pa\]
     pub modulus: f64,
+    /// Elastic constants of both gears.
+    pub materials: [Elastic; 2],
+    /// Modifications of the flanks of both gears.
+    pub flanks: [FlankModification; 2],
+    /// Misalignment of the flanks over the face width, positive if the end of the face opens. \[m\]
+    pub misalignment: f64,
     /// The oil of the mesh, for models that need it at other temperatures and pressures; `None` for a single model.
     pub oil: Option<MeshOil>,
 }
@@ -128,7 +142,22 @@ impl MeshPart {
             ra: 0.5 * (ra[0] + ra[1]),
             rq: rq[0].hypot(rq[1]),
             modulus: elastic_modulus / (1.0 - poisson * poisson),
+            materials: [Elastic {
+                modulus: elastic_modulus,
+                poisson,
+            }; 2],
+            flanks: [FlankModification::default(); 2],
+            misalignment: 0.0,
             oil: None,
+        }
+    }
+
+    /// The pair with modified flanks and a misalignment over the face width. \[m\]
+    pub fn with_flanks(self, flanks: [FlankModification; 2], misalignment: f64) -> Self {
+        Self {
+            flanks,
+            misalignment,
+            ..self
         }
     }
 
@@ -203,13 +232,9 @@ impl TryFrom<PairEntry> for MeshPart {
             tip_shortening: true,
         })
         .map_err(|faults| faults.iter().map(PairFault::to_string).collect::<Vec<_>>().join("; "))?;
-        Ok(Self::new(
-            pair,
-            entry.ra,
-            entry.rq,
-            entry.elastic_modulus,
-            entry.poisson,
-        ))
+        let flanks = entry.modification.unwrap_or_default();
+        let part = Self::new(pair, entry.ra, entry.rq, entry.elastic_modulus, entry.poisson);
+        Ok(part.with_flanks(flanks, entry.misalignment))
     }
 }
 

@@ -11,12 +11,17 @@ use serde_json::Value;
 use super::{Entry, Memory, Registry, from_resolved};
 use crate::attach::dangling;
 use crate::codes;
+use crate::contact::sharing::{CalculatedSharing, Sharing, SharingEntry};
 use crate::document::{Diagnostic, did_you_mean};
 use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
 use crate::loss::NoteBase;
 use crate::mechanism::gear_drag::{GearDrag, Scope};
+use crate::mechanism::gear_mesh::MeshPart;
 use crate::mechanism::{Mechanism, ModelRef, Slot};
 use crate::rating::{Rating, RatingSlot};
+
+/// Relative error of the loss factor between the knots of a load sharing above which it is doubted.
+const MOST_SHARING_ERROR: f64 = 0.02;
 
 /// Files named by a description, read once; paths are relative to the document that names them.
 #[derive(Debug)]
@@ -287,6 +292,51 @@ impl<'a> Build<'a> {
             self.error(reason)
                 .help("names of files are relative to the document that names them")
         })
+    }
+
+    /// The load sharing of the mesh to which the model belongs, from its parameter `load_sharing`. Where it corrects a file, or is not accurate
+    /// between its knots, it is doubted.
+    ///
+    /// # Errors
+    /// A sharing that the mesh cannot have, or a faulty file.
+    pub fn load_sharing(&mut self, part: &MeshPart, entry: &SharingEntry) -> Result<Sharing, Diagnostic> {
+        if let SharingEntry::Fixed(sharing) = entry {
+            return Ok(Sharing::Fixed(*sharing));
+        }
+        let files = self.files;
+        let bytes = match entry {
+            SharingEntry::Calculated(CalculatedSharing::File { path }) => Some(files.bytes(path)),
+            _ => None,
+        };
+        let input = (part.clone().with_oil(None), entry.clone(), bytes);
+        let prepared = self.repeat("load sharing", input, |(part, entry, bytes)| {
+            Sharing::new(part, entry, |_| bytes.clone().unwrap_or_else(|| Err(String::new())))
+        });
+        let path = format!("{}.load_sharing", self.path);
+        let sharing = prepared.map_err(|fault| fault.at(&path))?;
+        if let Sharing::Loaded(shares) = &sharing {
+            if shares.deviation() > 1e-3 {
+                let message = format!(
+                    "the shares of the file add up to the whole force within {:.2} %; they are corrected",
+                    shares.deviation() * 100.0
+                );
+                self.doubt(
+                    "load_sharing",
+                    Diagnostic::warning("", message).code(codes::SHARES_CORRECTED),
+                );
+            }
+            if shares.error() > MOST_SHARING_ERROR {
+                let message = format!(
+                    "between the loads at which the shares are calculated, the loss factor is interpolated within {:.1} %",
+                    shares.error() * 100.0
+                );
+                self.doubt(
+                    "load_sharing",
+                    Diagnostic::warning("", message).code(codes::SHARES_COARSE),
+                );
+            }
+        }
+        Ok(sharing)
     }
 
     /// Has the context of the model show what flows through an element of the oil network, by its section, such as `nozzles`, and its name.

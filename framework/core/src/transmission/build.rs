@@ -863,6 +863,14 @@ fn mesh_models(
         };
         let oil = oils.oil(&seat.path, &common);
         let part = MeshPart::new(teeth.pair, seat.ra, seat.rq, written.elastic_modulus, written.poisson);
+        let flanks = [0, 1].map(|i| {
+            frame
+                .entry
+                .gears
+                .get(&written.gears[i])
+                .and_then(|gear| gear.modification)
+        });
+        let part = part.with_flanks(flanks.map(Option::unwrap_or_default), written.misalignment);
         let part = build.part_again(&seat.path, part.with_oil(oil.and_then(|oil| oils.lubricant(oil))));
         match build.slot_at::<GearMesh>(&format!("{}.model", seat.path), &part, &choice.value) {
             Ok(model) => {

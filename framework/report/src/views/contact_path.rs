@@ -2,9 +2,10 @@
 
 mod summary;
 
-use gearloss_studies::analyses::contact_path::{ContactPath, ContactPathOutcome, PlaceOnPath};
+use gearloss_studies::analyses::contact_path::{ContactPath, ContactPathOutcome, MeshUnderLoad, PlaceOnPath};
 
 use crate::Figure;
+use crate::figure::Map;
 use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
@@ -18,17 +19,22 @@ fn show(outcome: &ContactPathOutcome, page: &mut Page) {
     for path in &outcome.paths {
         text(name, path, page);
         figures(name, path, page);
+        if let Some(load) = &path.mesh_load {
+            load_figures(name, path, load, page);
+        }
     }
 }
 
 fn text(name: &str, path: &ContactPath, page: &mut Page) {
-    let sharing = serde_json::to_value(path.load_sharing).unwrap_or_default();
+    let sharing = serde_json::to_value(&path.load_sharing).unwrap_or_default();
+    let sharing = sharing
+        .as_str()
+        .or_else(|| sharing["type"].as_str())
+        .unwrap_or_default()
+        .to_owned();
     page.line(format!(
         "{name}: path of contact of {}, {:.3} Nm at its first gear, load sharing {}, models {}",
-        path.mesh,
-        path.mesh_torque_nm,
-        sharing.as_str().unwrap_or_default(),
-        path.model_set
+        path.mesh, path.mesh_torque_nm, sharing, path.model_set
     ));
     let mut table = TextTable::new(&[
         "mm from pitch",
@@ -57,7 +63,78 @@ fn text(name: &str, path: &ContactPath, page: &mut Page) {
     if let Some(why) = &path.no_friction {
         page.line(format!("no friction of {}: {why}", path.mesh));
     }
+    if let Some(load) = &path.mesh_load {
+        page.line(format!(
+            "thin slices: stiffness {:.2} N/(mm um), transmission error {:.2} um on average and {:.2} um from least to greatest, line load up \
+             to {:.1} N/mm, face load factor {:.3}, loss factor {:.4}",
+            load.stiffness_gpa,
+            load.mean_transmission_error_um,
+            load.transmission_error_range_um,
+            load.greatest_line_load_n_mm,
+            load.face_load_factor,
+            load.loss_factor
+        ));
+        page.line(format!(
+            "the resultant force is {:.1} % of half of the face width from its middle, which the loads on the shafts neglect",
+            load.shift_of_resultant * 100.0
+        ));
+        if load.least_touching < 0.5 {
+            page.careful.push(format!(
+                "at times {:.0} % of the flanks of {} on the path touch: the modification or misalignment exceeds the deflection",
+                load.least_touching * 100.0,
+                path.mesh
+            ));
+        }
+    }
     page.line("");
+}
+
+/// Line load over the plane of action, and the transmission error.
+fn load_figures(name: &str, path: &ContactPath, load: &MeshUnderLoad, page: &mut Page) {
+    let mut along: Vec<f64> = load.plane.iter().map(|p| p.plane_from_pitch_point_mm).collect();
+    along.dedup();
+    let count = load.plane.len() / along.len().max(1);
+    let face = |j: usize| load.plane[j].face_mm;
+    // One slice is the whole face.
+    let rows = if count == 1 { 2 } else { count };
+    let value = |j: usize, i: usize| Some(load.plane[i * count + j.min(count - 1)].line_load_n_mm);
+    let map = Map {
+        title: format!("{name}: line load over the plane of action of {}", path.mesh),
+        x: (
+            "distance from the pitch point in mm".to_owned(),
+            along.iter().map(|x| format!("{x:.2}")).collect(),
+        ),
+        y: (
+            "distance from the start of the face in mm".to_owned(),
+            if count == 1 {
+                vec!["0".to_owned(), format!("{:.2}", 2.0 * face(0))]
+            } else {
+                (0..rows).map(|j| format!("{:.2}", face(j))).collect()
+            },
+        ),
+        values: (0..rows)
+            .flat_map(|j| (0..along.len()).map(move |i| (j, i)))
+            .map(|(j, i)| value(j, i))
+            .collect(),
+        unit: "N/mm".to_owned(),
+        ..Map::default()
+    };
+    page.figure(format!("{name}-{}-plane", path.model_set), Figure::Map(map));
+    let error = Figure::Lines {
+        title: format!("{name}: transmission error of {}", path.mesh),
+        x: "travel along the line of action in base pitches".to_owned(),
+        y: "transmission error in um".to_owned(),
+        lines: vec![Line {
+            name: path.model_set.clone(),
+            points: load
+                .phases
+                .iter()
+                .map(|p| Some((p.base_pitches, p.transmission_error_um)))
+                .collect(),
+            stroke: Stroke::Line,
+        }],
+    };
+    page.figure(format!("{name}-{}-transmission-error", path.model_set), error);
 }
 
 /// One figure for each quantity along the path.

@@ -1,19 +1,20 @@
 //! Sliding and entrainment velocity, load share, Hertzian pressure, friction, film thickness and loss along the path of contact of one
-//! mesh.
+//! mesh; with a load sharing in thin slices also its transmission error and the line load over the plane of action.
 
 use std::sync::Arc;
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::contact::path::Path;
+use gearloss_framework::contact::sharing::{CalculatedSharing, Sharing, SharingEntry, slices_of};
 use gearloss_framework::contact::{Film, film};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
-use gearloss_framework::geometry::LoadSharing;
+use gearloss_framework::geometry::{Line, LoadSharing, ShareTable};
 use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::Answers as _;
 use gearloss_framework::mechanism::gear_mesh::{GearMeshAt, MeshPart};
-use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
+use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt, hertz};
 use gearloss_framework::mechanism::tooth_friction::{PathAt, ToothFriction};
 use gearloss_framework::registry::{Build, ModelRef, Slot};
 use gearloss_framework::transmission::Transmission;
@@ -91,7 +92,7 @@ pub struct ContactPath {
     /// Oil temperature. [degC]
     pub oil_temperature_degc: f64,
     /// Load sharing of the tooth pairs in contact.
-    pub load_sharing: LoadSharing,
+    pub load_sharing: SharingEntry,
     /// Torque of the mesh at its first gear. [Nm]
     pub mesh_torque_nm: f64,
     /// Sliding velocity along the teeth, the same on the whole path and part of the sliding velocity of each point; hypoid gears only. [m/s]
@@ -101,7 +102,61 @@ pub struct ContactPath {
     pub no_friction: Option<String>,
     /// Points along the path, starting at the first contact.
     pub places: Vec<PlaceOnPath>,
+    /// Stiffness, transmission error and load over the plane of action; with `load_sharing: { type: slices }` only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh_load: Option<MeshUnderLoad>,
 }
+
+/// A mesh in thin slices under its load, over one base pitch.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct MeshUnderLoad {
+    /// Mean stiffness of the mesh per face width; 1 GPa is 1 N/(mm um). [GPa]
+    pub stiffness_gpa: f64,
+    /// Mean transmission error along the line of action, with the misalignment. [um]
+    pub mean_transmission_error_um: f64,
+    /// Greatest less least transmission error. [um]
+    pub transmission_error_range_um: f64,
+    /// Greatest line load. [N/mm]
+    pub greatest_line_load_n_mm: f64,
+    /// Mean over time of the line load along the face: the greatest over the mean. [-]
+    pub face_load_factor: f64,
+    /// Distance of the resultant force from the middle of the face, over half of the face width, positive towards its end; it is neglected in
+    /// the loads on the shaft. [-]
+    pub shift_of_resultant: f64,
+    /// Least share of the flanks on the path that touch. [-]
+    pub least_touching: f64,
+    /// Local tooth loss factor. [-]
+    pub loss_factor: f64,
+    /// Transmission error over one base pitch, from the first contact of a pair.
+    pub phases: Vec<PhaseOfMesh>,
+    /// Load over the plane of action.
+    pub plane: Vec<PlaceOnPlane>,
+}
+
+/// The mesh at one phase.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct PhaseOfMesh {
+    /// Travel along the line of action since the first contact of a pair, over the base pitch. [-]
+    pub base_pitches: f64,
+    /// Transmission error. [um]
+    pub transmission_error_um: f64,
+}
+
+/// One place on the plane of action.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct PlaceOnPlane {
+    /// Distance from the pitch point, towards the tip of the first gear. [mm]
+    pub plane_from_pitch_point_mm: f64,
+    /// Distance from the start of the face. [mm]
+    pub face_mm: f64,
+    /// Line load. [N/mm]
+    pub line_load_n_mm: f64,
+    /// Hertzian pressure. [GPa]
+    pub plane_pressure_gpa: f64,
+}
+
+/// Places along the path in the plane of action.
+const PLANE: usize = 40;
 
 /// One point on the path of contact.
 #[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
@@ -244,7 +299,8 @@ impl ContactPathEntry {
         let section = path.split('.').next().unwrap_or_default();
         let model = &built.resolved.value[section][&self.mesh]["model"];
         let load_sharing = sharing(model);
-        let (places, no_friction) = self.places(cx, built, (path, &at), (model, load_sharing))?;
+        let mesh_load = mesh_load(&at, &load_sharing);
+        let (places, no_friction) = self.places(cx, built, (path, &at), (model, &load_sharing))?;
         let lengthwise = at.part.pair.lengthwise_sliding() * at.speed.abs();
         Ok(ContactPath {
             model_set: built.name.clone(),
@@ -259,6 +315,7 @@ impl ContactPathEntry {
             lengthwise_sliding_m_s: Some(lengthwise).filter(|speed| *speed > 1e-9),
             no_friction,
             places,
+            mesh_load,
         })
     }
 
@@ -306,14 +363,28 @@ impl ContactPathEntry {
         cx: &Planner<'_>,
         built: &Built<'_>,
         (path, at): (&str, &GearMeshAt<'_>),
-        (model, sharing): (&Value, LoadSharing),
+        (model, sharing): (&Value, &SharingEntry),
     ) -> Result<(Vec<PlaceOnPath>, Option<String>), Stopped> {
         let part = Arc::new(at.part.clone());
         let mut build = Build::new(cx.language.registry(), &built.gearbox.files);
         let friction = Friction::new(&mut build, &format!("{path}.model"), &part, model);
         let friction = friction.map_err(|error| cx.found(vec![error]))?;
         let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
-        let fine = Path::even(&part.pair, sharing, self.places as usize);
+        let places = self.places as usize;
+        let line_load = part.pair.line_load(mean.normal_force);
+        let fine = match build
+            .load_sharing(&part, sharing)
+            .map_err(|error| cx.found(vec![error]))?
+        {
+            Sharing::Fixed(sharing) => Path::even(&part.pair, sharing, places),
+            Sharing::Loaded(shares) => {
+                let table = under_load(&part, sharing, line_load).unwrap_or_else(|| {
+                    let rows = part.pair.even_path(LoadSharing::Rigid, places);
+                    ShareTable::new(rows.iter().map(|p| shares.row(p.x, line_load)).collect())
+                });
+                Path::even_of_table(&part.pair, &table, Line::Peak, places)
+            }
+        };
         let along = fine
             .at_operating_point(&mean, Notes::MUTED)
             .with(|to| to.bodies = at.bodies().unwrap_or(None));
@@ -344,17 +415,67 @@ impl ContactPathEntry {
     }
 }
 
+/// The shares of thin slices under a line load in N/m; `None` for another sharing, or without load.
+fn under_load(part: &MeshPart, sharing: &SharingEntry, line_load: f64) -> Option<ShareTable> {
+    let SharingEntry::Calculated(CalculatedSharing::Slices(entry)) = sharing else {
+        return None;
+    };
+    let (_, slices) = slices_of(part, entry).ok().filter(|_| line_load > 0.0)?;
+    Some(slices.mesh(line_load).1)
+}
+
+/// The results of thin slices; `None` for another sharing, or without load.
+fn mesh_load(at: &GearMeshAt<'_>, sharing: &SharingEntry) -> Option<MeshUnderLoad> {
+    let SharingEntry::Calculated(CalculatedSharing::Slices(entry)) = sharing else {
+        return None;
+    };
+    let (part, pair) = (at.part, &at.part.pair);
+    let line_load = pair.line_load(pair.normal_force(at.torque));
+    let (_, slices) = slices_of(part, entry).ok().filter(|_| line_load > 0.0)?;
+    let (mesh, _) = slices.mesh(line_load);
+    let number = mesh.delta.len() as f64;
+    let phase = |(i, delta): (usize, &f64)| PhaseOfMesh {
+        base_pitches: (i as f64 + 0.5) / number,
+        transmission_error_um: delta * 1e6,
+    };
+    let plane = slices
+        .plane(line_load, &slices.even_places(PLANE))
+        .into_iter()
+        .flat_map(|(x, lines)| {
+            let count = lines.len() as f64;
+            let place = move |(j, load): (usize, f64)| PlaceOnPlane {
+                plane_from_pitch_point_mm: (x - pair.points[2]) * 1e3,
+                face_mm: (j as f64 + 0.5) * pair.facewidth / count * 1e3,
+                line_load_n_mm: load * 1e-3,
+                plane_pressure_gpa: hertz(load, part.modulus, pair.relative_radius(x)) * 1e-9,
+            };
+            lines.into_iter().enumerate().map(place)
+        });
+    Some(MeshUnderLoad {
+        stiffness_gpa: mesh.stiffness * 1e-9,
+        mean_transmission_error_um: mesh.mean() * 1e6,
+        transmission_error_range_um: mesh.peak_to_peak() * 1e6,
+        greatest_line_load_n_mm: mesh.greatest * 1e-3,
+        face_load_factor: mesh.face_factor,
+        shift_of_resultant: mesh.shift,
+        least_touching: mesh.least_touching,
+        loss_factor: mesh.loss_factor,
+        phases: mesh.delta.iter().enumerate().map(phase).collect(),
+        plane: plane.collect(),
+    })
+}
+
 /// Load sharing of a mesh model: its own, that of its law of mean friction, or the assumption of its loss factor.
-fn sharing(model: &Value) -> LoadSharing {
+fn sharing(model: &Value) -> SharingEntry {
     let written = [&model["load_sharing"], &model["mean_friction"]["load_sharing"]]
         .into_iter()
         .find_map(|value| serde_json::from_value(value.clone()).ok());
     let uniform = model["type"] == "even_share" || model["loss_factor"] == "uniform";
-    written.unwrap_or(if uniform {
+    written.unwrap_or(SharingEntry::Fixed(if uniform {
         LoadSharing::Uniform
     } else {
         LoadSharing::Rigid
-    })
+    }))
 }
 
 impl Outcome for ContactPathOutcome {
@@ -367,7 +488,34 @@ impl Outcome for ContactPathOutcome {
             .text("model_set", "Model set", |(path, _)| &path.model_set)
             .text("mesh", "Mesh", |(path, _)| &path.mesh)
             .fields("from_pitch_point_mm load_share sliding_speed_m_s sum_speed_m_s radius_mm hertz_pressure_gpa film_um mu sliding_loss_w", |(_, at)| at);
-        vec![table.finish()]
+        let of_plane = |path| {
+            path.mesh_load
+                .iter()
+                .flat_map(|load| load.plane.iter())
+                .collect::<Vec<_>>()
+        };
+        let plane = Table::of_each(format!("{}-plane", self.head.analysis), &self.paths, of_plane)
+            .text("model_set", "Model set", |(path, _)| &path.model_set)
+            .text("mesh", "Mesh", |(path, _)| &path.mesh)
+            .fields(
+                "plane_from_pitch_point_mm face_mm line_load_n_mm plane_pressure_gpa",
+                |(_, at)| *at,
+            );
+        let of_phases = |path| {
+            path.mesh_load
+                .iter()
+                .flat_map(|load| load.phases.iter())
+                .collect::<Vec<_>>()
+        };
+        let phases = Table::of_each(format!("{}-phases", self.head.analysis), &self.paths, of_phases)
+            .text("model_set", "Model set", |(path, _)| &path.model_set)
+            .text("mesh", "Mesh", |(path, _)| &path.mesh)
+            .fields("base_pitches transmission_error_um", |(_, at)| *at);
+        let mut tables = vec![table.finish()];
+        if self.paths.iter().any(|path| path.mesh_load.is_some()) {
+            tables.extend([plane.finish(), phases.finish()]);
+        }
+        tables
     }
 
     fn notes(&self) -> Vec<&Note> {

@@ -1,0 +1,408 @@
+//! Stiffness of one pair of teeth per face width along the path of contact.
+//!
+//! Sources: single stiffness c' of ISO 6336-1, as two public codes agree (without C_R: solid gears); for a ring the number of teeth is
+//! infinite, quoted from memory. Variation as a cosine along the path: Sanchez, Pedrero and Pleguezuelos, quoted from memory. Bending and
+//! shear of the tooth, its root and the Hertzian contact: Weber and Banaschek 1953 in the form for any Poisson's ratio, re-derived; the
+//! printed constants for 0.3 follow from it. The thickness below the form circle of the rack is held at its value there.
+
+use std::f64::consts::PI;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::{Pair, involute};
+
+/// Law of the stiffness of one pair of teeth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StiffnessLaw {
+    /// Bending, shear, root and Hertzian contact of the tooth at each place, after Weber and Banaschek. External gears.
+    #[default]
+    Weber,
+    /// The single stiffness of ISO 6336-1, the same along the path.
+    Iso6336,
+    /// A cosine along the path whose maximum is the single stiffness of ISO 6336-1, after Sanchez, Pedrero and Pleguezuelos.
+    Cosine,
+}
+
+/// Elastic constants of one gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// Young's modulus. \[Pa\]
+    pub modulus: f64,
+    /// Poisson's ratio.
+    pub poisson: f64,
+}
+
+impl Elastic {
+    /// Compliance of a half-space, (1 - nu^2)/E. \[1/Pa\]
+    fn half_space(self) -> f64 {
+        (1.0 - self.poisson * self.poisson) / self.modulus
+    }
+}
+
+/// Theoretical single stiffness 1/q' of ISO 6336-1. \[N/(m m)\], which is 1e-9 N/(mm um)
+fn theoretical(pair: &Pair) -> f64 {
+    let virtual_teeth = |z: u32| f64::from(z) / (pair.base_helix.cos().powi(2) * pair.helix_angle.cos());
+    let of = |pinion: usize| {
+        let [z1, mut z2] = [pinion, 1 - pinion].map(|gear| virtual_teeth(pair.z[gear]));
+        let [x1, x2] = [pinion, 1 - pinion].map(|gear| pair.profile_shift[gear]);
+        if pair.internal {
+            z2 = f64::INFINITY;
+        }
+        0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1 - 0.00193 * x2 - 0.24188 * x2 / z2
+            + 0.00529 * x1 * x1
+            + 0.00182 * x2 * x2
+    };
+    // The formula is not symmetric: its first gear is the pinion. Of equal gears either is.
+    let q = match pair.z[0].cmp(&pair.z[1]) {
+        std::cmp::Ordering::Less => of(0),
+        std::cmp::Ordering::Equal => 0.5 * (of(0) + of(1)),
+        std::cmp::Ordering::Greater => of(1),
+    };
+    1e9 / q
+}
+
+/// Correction of measured to theoretical stiffness in ISO 6336-1.
+const C_M: f64 = 0.8;
+
+/// Single stiffness c' of ISO 6336-1 for a line load F_t/b of at least 100 N/mm. \[Pa\]
+pub fn single_stiffness(pair: &Pair, materials: [Elastic; 2]) -> f64 {
+    let dedendum = |gear: usize| {
+        let depth = 0.5 * (pair.reference_diameter[gear] - pair.root_diameter[gear]).abs();
+        depth / pair.normal_module + pair.profile_shift[gear]
+    };
+    let angle = 1.0 - 0.02 * (20.0 - pair.pressure_angle.to_degrees());
+    let of = |gear: usize| (1.0 + 0.5 * (1.2 - dedendum(gear))) * angle;
+    let rack = if pair.internal { of(0) } else { 0.5 * (of(0) + of(1)) };
+    let [e1, e2] = materials.map(|m| m.modulus);
+    let modulus = 2.0 * e1 * e2 / (e1 + e2) / 206e9;
+    theoretical(pair) * C_M * rack * pair.helix_angle.cos() * modulus
+}
+
+/// Line load F_t/b below which c' falls with its fourth root in ISO 6336-1. \[N/m\]
+const LIGHT: f64 = 100e3;
+
+/// Stiffness of one pair of teeth along the path.
+#[derive(Debug, Clone)]
+pub enum Stiffness {
+    /// The same everywhere. \[Pa\]
+    Constant(f64),
+    /// A cosine along the path.
+    Cosine {
+        /// Its maximum. \[Pa\]
+        greatest: f64,
+        /// Factor of the distance from the middle of the path. \[1/m\]
+        factor: f64,
+        /// Middle of the path. \[m\]
+        middle: f64,
+    },
+    /// Teeth as beams.
+    Weber(Box<Weber>),
+}
+
+impl Stiffness {
+    /// The stiffness of a pair by a law; the single stiffness, if stated, replaces that of ISO 6336-1. \[Pa\]
+    ///
+    /// # Errors
+    /// If the law does not describe the pair, as a sentence.
+    pub fn new(pair: &Pair, materials: [Elastic; 2], law: StiffnessLaw, single: Option<f64>) -> Result<Self, String> {
+        let greatest = single.unwrap_or_else(|| single_stiffness(pair, materials));
+        match law {
+            StiffnessLaw::Iso6336 => Ok(Self::Constant(greatest)),
+            StiffnessLaw::Cosine => {
+                let ratio = 1.0 + 0.5 * pair.contact_ratio;
+                let root = (0.5 * ratio * ratio - 1.0).max(f64::MIN_POSITIVE).sqrt();
+                let [start, .., end] = pair.points;
+                let factor = 1.0 / (root * pair.base_pitch);
+                if 0.5 * (end - start) * factor >= 0.5 * PI {
+                    return Err(format!(
+                        "the cosine has no stiffness at the ends of a path with the contact ratio {:.2}",
+                        pair.contact_ratio
+                    ));
+                }
+                Ok(Self::Cosine {
+                    greatest,
+                    factor,
+                    middle: 0.5 * (start + end),
+                })
+            }
+            StiffnessLaw::Weber if pair.internal => Err("the teeth of a ring are no beams of this law".to_owned()),
+            StiffnessLaw::Weber => Ok(Self::Weber(Box::new(Weber::new(pair, materials)))),
+        }
+    }
+
+    /// Stiffness at a place under a line load in N/m. \[Pa\]
+    pub fn at(&self, x: f64, line_load: f64) -> f64 {
+        match self {
+            Self::Constant(value) => *value,
+            Self::Cosine {
+                greatest,
+                factor,
+                middle,
+            } => greatest * (factor * (x - middle)).cos(),
+            Self::Weber(teeth) => teeth.at(x, line_load),
+        }
+    }
+
+    /// Factor on the stiffness under a line load F_bt/b of the mesh, which ISO 6336-1 takes from F_t/b. \[N/m\]
+    pub fn factor(&self, pair: &Pair, line_load: f64, stated: bool) -> f64 {
+        let tangential = line_load * pair.transverse_angle.cos();
+        match self {
+            Self::Weber(_) => 1.0,
+            _ if stated || tangential >= LIGHT => 1.0,
+            _ => (tangential / LIGHT).powf(0.25),
+        }
+    }
+
+    /// True if it depends on the load of a slice.
+    pub fn depends_on_load(&self) -> bool {
+        matches!(self, Self::Weber(_))
+    }
+}
+
+/// Compliance of one tooth loaded at a place of its flank, over 1/E.
+#[derive(Debug, Clone, Copy)]
+struct Tooth {
+    poisson: f64,
+    base_radius: f64,
+    /// Half of the angle of the tooth at the reference circle plus the involute there.
+    half_angle: f64,
+    /// Height above the axis at the root, half thickness there, and height where the involute begins.
+    root_height: f64,
+    root_half: f64,
+    form_height: f64,
+}
+
+/// What follows from the place of the load.
+struct Loaded {
+    bending: f64,
+    root: f64,
+    /// Distance of the contact from the centre line of the tooth along the load. \[m\]
+    depth: f64,
+}
+
+impl Tooth {
+    fn new(pair: &Pair, gear: usize, poisson: f64) -> Self {
+        let radius = 0.5 * pair.reference_diameter[gear];
+        let base_radius = pair.base_radius[gear];
+        let (m, x) = (pair.normal_module, pair.profile_shift[gear]);
+        let thickness = m * (0.5 * PI + 2.0 * x * pair.pressure_angle.tan()) / pair.helix_angle.cos();
+        let half_angle = thickness / (2.0 * radius) + involute(pair.transverse_angle);
+        let root_radius = 0.5 * pair.root_diameter[gear];
+        let dedendum = (1.0 - x) * m;
+        let form = (radius - dedendum).hypot(dedendum / pair.transverse_angle.tan());
+        let form = form.max(base_radius).max(root_radius);
+        let mut tooth = Self {
+            poisson,
+            base_radius,
+            half_angle,
+            root_height: 0.0,
+            root_half: 0.0,
+            form_height: 0.0,
+        };
+        let angle = tooth.angle(form);
+        tooth.root_half = (form * angle.sin()).max(1e-3 * m);
+        tooth.form_height = form * angle.cos();
+        tooth.root_height = (root_radius * root_radius - tooth.root_half * tooth.root_half)
+            .max(0.0)
+            .sqrt();
+        tooth
+    }
+
+    /// Half of the angle of the tooth at a radius.
+    fn angle(&self, radius: f64) -> f64 {
+        self.half_angle - involute((self.base_radius / radius).min(1.0).acos())
+    }
+
+    /// Half of the thickness at a height above the axis. \[m\]
+    fn half(&self, height: f64) -> f64 {
+        if height <= self.form_height {
+            return self.root_half;
+        }
+        let mut radius = height;
+        for _ in 0..8 {
+            let radius_now: f64 = radius.max(self.base_radius);
+            let (angle, pressure) = (self.angle(radius_now), (self.base_radius / radius_now).min(1.0).acos());
+            let slope = angle.cos() + angle.sin() * pressure.tan();
+            let step = (radius_now * angle.cos() - height) / slope;
+            radius = radius_now - step;
+            if step.abs() < 1e-15 * radius {
+                break;
+            }
+        }
+        (radius * self.angle(radius).sin()).max(1e-3 * self.root_half)
+    }
+
+    /// The tooth loaded where its flank has a radius.
+    fn loaded(&self, radius: f64, rule: &[(f64, f64)]) -> Loaded {
+        let nu = self.poisson;
+        let half_angle = self.angle(radius);
+        let slant = (self.base_radius / radius).min(1.0).acos() - half_angle;
+        let load_height = self.base_radius / slant.cos();
+        let thick = 2.0 * self.root_half;
+        let span = (load_height - self.root_height).max(0.0);
+        let middle = self
+            .form_height
+            .clamp(self.root_height, load_height.max(self.root_height));
+        let (mut bent, mut sheared) = (0.0, 0.0);
+        for [low, high] in [[self.root_height, middle], [middle, load_height]] {
+            if high <= low {
+                continue;
+            }
+            for (t, w) in rule {
+                let y = 0.5 * (low + high) + 0.5 * (high - low) * t;
+                let (thickness, w) = (2.0 * self.half(y), 0.5 * (high - low) * w);
+                bent += w * (load_height - y).powi(2) / thickness.powi(3);
+                sheared += w / thickness;
+            }
+        }
+        let across = slant.cos().powi(2);
+        let pressed = 1.0 + (1.0 - nu) / 2.4 * slant.tan().powi(2);
+        let plane = 1.0 - nu * nu;
+        let lever = span / thick;
+        Loaded {
+            bending: across * (12.0 * plane * bent + 2.4 * (1.0 + nu) * pressed * sheared),
+            root: across
+                * (18.0 / PI * plane * lever * lever
+                    + 2.0 * (1.0 - 2.0 * nu) * (1.0 + nu) * lever
+                    + 4.8 / PI * plane * pressed),
+            depth: (radius * half_angle.sin() / slant.cos()).max(1e-2 * self.root_half),
+        }
+    }
+}
+
+/// Places at which the compliance of beams is computed; between them it is interpolated.
+const PLACES: usize = 65;
+
+/// Points of the integrals over the height of a tooth on each of their two sections.
+const HEIGHTS: usize = 16;
+
+/// Teeth of a pair as beams, with a Hertzian contact.
+#[derive(Debug, Clone)]
+pub struct Weber {
+    start: f64,
+    step: f64,
+    /// Compliance of both teeth without contact, and of the contact under a line load of one, at each place. \[1/Pa\]
+    places: Vec<[f64; 2]>,
+    /// Decrease of the compliance of the contact with the logarithm of the line load. \[1/Pa\]
+    fall: f64,
+}
+
+/// The compliances of both teeth: bending, root and depth of each.
+fn teeth_at(pair: &Pair, teeth: &[Tooth; 2], x: f64, rule: &[(f64, f64)]) -> [Loaded; 2] {
+    let rho = pair.curvature(x);
+    [0, 1].map(|gear| teeth[gear].loaded(pair.base_radius[gear].hypot(rho[gear]), rule))
+}
+
+/// Compliance of the half-spaces of both gears together. \[1/Pa\]
+fn both_half_spaces(materials: [Elastic; 2]) -> f64 {
+    materials.iter().map(|m| m.half_space()).sum()
+}
+
+/// Compliance of both teeth without contact, and of the contact under a line load of one, at a place. \[1/Pa\]
+fn compliances(pair: &Pair, teeth: &[Tooth; 2], materials: [Elastic; 2], x: f64, rule: &[(f64, f64)]) -> [f64; 2] {
+    let loaded = teeth_at(pair, teeth, x, rule);
+    let body = (0..2).map(|i| (loaded[i].bending + loaded[i].root) / materials[i].modulus);
+    // b_H^2 = 4 w rho/(pi E*) with 1/E* the sum of both half-spaces.
+    let band = (4.0 * pair.relative_radius(x) * both_half_spaces(materials) / PI).sqrt();
+    let contact = (0..2).map(|i| {
+        let nu = materials[i].poisson;
+        let depth = (2.0 * loaded[i].depth / band).ln() - nu / (2.0 * (1.0 - nu));
+        2.0 / PI * materials[i].half_space() * depth
+    });
+    [body.sum(), contact.sum()]
+}
+
+impl Weber {
+    fn new(pair: &Pair, materials: [Elastic; 2]) -> Self {
+        let teeth = [0, 1].map(|gear| Tooth::new(pair, gear, materials[gear].poisson));
+        let rule = crate::geometry::gauss::rule(HEIGHTS);
+        let [start, .., end] = pair.points;
+        let step = (end - start) / (PLACES - 1) as f64;
+        let half_spaces = both_half_spaces(materials);
+        let places = (0..PLACES).map(|i| compliances(pair, &teeth, materials, start + step * i as f64, &rule));
+        Self {
+            start,
+            step,
+            places: places.collect(),
+            fall: half_spaces / PI,
+        }
+    }
+
+    fn at(&self, x: f64, line_load: f64) -> f64 {
+        let place = ((x - self.start) / self.step).clamp(0.0, (PLACES - 1) as f64);
+        let i = (place as usize).min(PLACES - 2);
+        let t = place - i as f64;
+        let between = |k: usize| self.places[i][k] + t * (self.places[i + 1][k] - self.places[i][k]);
+        let body = between(0);
+        // A band as wide as the tooth has no compliance of its own.
+        let contact = (between(1) - self.fall * line_load.max(1.0).ln()).max(0.0);
+        1.0 / (body + contact)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::super::tests::{STEEL, c14};
+    use super::*;
+
+    #[test]
+    fn single_stiffness_of_c14() {
+        let pair = c14();
+        let close = |value: f64, printed: f64| assert!((value / printed - 1.0).abs() < 1e-6, "{value} {printed}");
+        close(theoretical(&pair) * 1e-9, 15.77607502);
+        let single = single_stiffness(&pair, [STEEL; 2]) * 1e-9;
+        close(single, 12.30533851);
+        close(single * (0.75 * pair.contact_ratio + 0.25), 16.574017604);
+    }
+
+    /// Bending, root of both teeth, contact and stiffness at A, B, C, D, E.
+    #[test]
+    fn teeth_of_c14_as_beams() {
+        let pair = c14();
+        let teeth = [0, 1].map(|gear| Tooth::new(&pair, gear, 0.3));
+        let rule = crate::geometry::gauss::rule(48);
+        let printed = [
+            [1.26896276, 2.41516108, 7.75520932, 6.69857314, 4.01325292, 9.29973903],
+            [1.57845659, 2.70817586, 3.16995176, 4.04134460, 3.98424415, 13.30562580],
+            [2.09940157, 3.19792199, 2.08916356, 3.12751764, 3.95925640, 14.23314328],
+            [3.10517825, 4.06766241, 1.43820901, 2.51873722, 3.90817109, 13.69866842],
+            [7.89768169, 6.86017040, 0.86547860, 1.98584997, 3.58206097, 9.72099717],
+        ];
+        let load = 422.29276686e3_f64;
+        let stiffness = Stiffness::new(&pair, [STEEL; 2], StiffnessLaw::Weber, None).unwrap();
+        for (x, row) in pair.points.into_iter().zip(printed) {
+            let loaded = teeth_at(&pair, &teeth, x, &rule);
+            let found = [loaded[0].bending, loaded[0].root, loaded[1].bending, loaded[1].root];
+            for (value, printed) in found.into_iter().zip(row) {
+                assert!((value / printed - 1.0).abs() < 1e-6, "{value} {printed}");
+            }
+            let [body, contact] = compliances(&pair, &teeth, [STEEL; 2], x, &rule);
+            let pressed = contact - both_half_spaces([STEEL; 2]) / PI * load.ln();
+            assert!((pressed * STEEL.modulus / row[4] - 1.0).abs() < 1e-6, "{pressed}");
+            let c = 1e-9 / (body + pressed);
+            assert!((c / row[5] - 1.0).abs() < 1e-6, "{c} {}", row[5]);
+            // Between the places of the table it is interpolated.
+            let c = stiffness.at(x, load) * 1e-9;
+            assert!((c / row[5] - 1.0).abs() < 1e-4, "{c} {}", row[5]);
+        }
+    }
+
+    #[test]
+    fn a_cosine_lands_on_the_classical_third() {
+        let pair = c14();
+        let cosine = Stiffness::new(&pair, [STEEL; 2], StiffnessLaw::Cosine, Some(14e9)).unwrap();
+        let [start, ..] = pair.points;
+        let printed = [0.354561390, 0.419493143, 0.511360929, 0.604286420];
+        for (xi, printed) in [0.0, 0.1, 0.25, 0.4].into_iter().zip(printed) {
+            let [own, mate] = [xi, xi + 1.0].map(|xi| cosine.at(start + xi * pair.base_pitch, 1.0));
+            assert!(
+                (own / (own + mate) / printed - 1.0).abs() < 1e-6,
+                "{}",
+                own / (own + mate)
+            );
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! What the load sharing of a mesh means for its loss at the rated torque: that of its model beside one calculated in thin slices.
+
+use std::sync::Arc;
+
+use gearloss_framework::contact::sharing::stiffness::StiffnessLaw;
+use gearloss_framework::contact::sharing::{CalculatedSharing, SharingEntry, SlicesSharing};
+use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::language::Language;
+use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt};
+use gearloss_framework::registry::Build;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::Value;
+
+use super::CheckedGearbox;
+
+/// Loss of a mesh at the rated torque and speed by its own load sharing and by one calculated in thin slices.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct SharingAtRating {
+    /// Path of the mesh.
+    pub mesh: String,
+    /// Gear state.
+    pub gear: String,
+    /// Its load sharing: a word, or the `type`.
+    pub load_sharing: String,
+    /// Loss of one pair of gears with it. [W]
+    pub loss_w: f64,
+    /// The same with thin slices, with the stated modifications. [W]
+    pub sliced_loss_w: f64,
+    /// True if no modification and no misalignment is stated.
+    pub unmodified: bool,
+}
+
+impl SharingAtRating {
+    /// As one sentence.
+    pub fn sentence(&self) -> String {
+        let Self {
+            mesh,
+            gear,
+            load_sharing,
+            loss_w,
+            sliced_loss_w,
+            unmodified,
+        } = self;
+        let stated = if *unmodified {
+            ", with no modification stated"
+        } else {
+            ""
+        };
+        format!(
+            "at the rated torque in `{gear}`: {mesh}: `{load_sharing}`: {loss_w:.1} W; by slices {sliced_loss_w:.1} W{stated}"
+        )
+    }
+}
+
+/// The loss of every mesh whose model has a load sharing, in the first gear that drives it at the rating.
+pub fn load_sharings(language: &Language, checked: &CheckedGearbox) -> Vec<SharingAtRating> {
+    let t = &checked.transmission;
+    let Some(rating) = t.rating else { return Vec::new() };
+    let mut found: Vec<SharingAtRating> = Vec::new();
+    for (i, state) in t.states().iter().enumerate() {
+        let Some(case) = t.case_at_reference(i) else { continue };
+        let mut scratch = t.scratch(&case);
+        let mut torques = vec![0.0; case.torque_ports.len()];
+        let Some(first) = torques.first_mut() else { continue };
+        *first = rating.torque;
+        let point = Point {
+            speeds: &[rating.speed],
+            torques: &torques,
+            flow: PowerFlow::Ideal,
+            ..Point::default()
+        };
+        let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
+        if !solution.has_flow() {
+            continue;
+        }
+        for (mesh, path, _) in t.cylindrical_meshes() {
+            if found.iter().any(|known| known.mesh == path) {
+                continue;
+            }
+            let Some(at) = solution.mesh_at(mesh).filter(|at| at.torque > 0.0 && at.speed != 0.0) else {
+                continue;
+            };
+            let id = path.trim_start_matches("meshes.");
+            let model = &checked.resolved.value["meshes"][id]["model"];
+            let own = sharing(language, checked, model, &at, path);
+            found.extend(own.map(|of| SharingAtRating {
+                gear: state.name.clone(),
+                ..of
+            }));
+        }
+    }
+    found
+}
+
+fn sharing(
+    language: &Language,
+    checked: &CheckedGearbox,
+    model: &Value,
+    at: &GearMeshAt<'_>,
+    path: &str,
+) -> Option<SharingAtRating> {
+    let own: SharingEntry = serde_json::from_value(model.get("load_sharing")?.clone()).ok()?;
+    if matches!(own, SharingEntry::Calculated(CalculatedSharing::Slices(_))) {
+        return None;
+    }
+    let part = Arc::new(at.part.clone());
+    let mut build = Build::new(language.registry(), &checked.gearbox.files);
+    let mut loss = |model: &Value| {
+        let slot = build.slot_at::<GearMesh>(path, &part, model).ok()?;
+        slot.loss(&at.with(|to| to.part = &part))
+            .ok()
+            .map(|loss| loss.total_watts(at.speed))
+    };
+    let sliced = SharingEntry::Calculated(CalculatedSharing::Slices(SlicesSharing {
+        stiffness: if part.pair.internal {
+            StiffnessLaw::Iso6336
+        } else {
+            StiffnessLaw::Weber
+        },
+        ..SlicesSharing::default()
+    }));
+    let mut other = model.clone();
+    other["load_sharing"] = serde_json::to_value(sliced).ok()?;
+    let written = &model["load_sharing"];
+    Some(SharingAtRating {
+        mesh: path.to_owned(),
+        gear: String::new(),
+        load_sharing: written.as_str().or_else(|| written["type"].as_str())?.to_owned(),
+        loss_w: loss(model)?,
+        sliced_loss_w: loss(&other)?,
+        unmodified: part.misalignment == 0.0 && part.flanks.iter().all(|flank| *flank == Default::default()),
+    })
+}
