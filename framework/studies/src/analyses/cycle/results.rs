@@ -30,7 +30,7 @@ pub fn duty(
     let energies = shares.sums(&driven.total.parts);
     let nodes = nodes(t, driven);
     let measured: Vec<Vec<(f64, f64)>> = nodes.iter().map(|node| measured(read, node)).collect();
-    let series = |s: &Stretch| interval(s, shares, energy.motors_j.is_some(), &measured);
+    let series = |s: &Stretch| interval(t, s, shares, energy.motors_j.is_some(), &measured);
     let series = driven.stretches.iter().map(series).collect();
     DutyOfSet {
         model_set: b.name.clone(),
@@ -43,6 +43,7 @@ pub fn duty(
         energy,
         per_distance: per_distance(driven),
         consumption: None,
+        gears: None,
         heat: heat(t, driven),
         motors: motors(t, driven),
         motors_beyond_map: driven.total.beyond_map,
@@ -210,7 +211,13 @@ fn calculated_at(driven: &Driven, node: usize, time: f64) -> Option<f64> {
 }
 
 /// One interval with its mean powers.
-fn interval(s: &Stretch, shares: &Shares, has_motors: bool, measured: &[Vec<(f64, f64)>]) -> IntervalOfDuty {
+fn interval(
+    t: &Transmission,
+    s: &Stretch,
+    shares: &Shares,
+    has_motors: bool,
+    measured: &[Vec<(f64, f64)>],
+) -> IntervalOfDuty {
     let heats = &s.heats;
     let power = |joule: f64| joule / heats.duration;
     let end = s.start + heats.duration;
@@ -220,6 +227,8 @@ fn interval(s: &Stretch, shares: &Shares, has_motors: bool, measured: &[Vec<(f64
         torque_nm: s.torque,
         speed_rpm: s.speed * RPM,
         vehicle_speed_m_s: s.vehicle_speed,
+        gear: t.states()[s.gear].name.clone(),
+        shift_j: s.shift.map(|shift| shift.heat),
         status: s.status,
         input_w: power(heats.input),
         output_w: power(heats.output),
