@@ -196,7 +196,7 @@ pub struct Grid {
     pub bind: Ordered<Value>,
 }
 
-/// One or several gears.
+/// One or several gears; in a map `best` is the one that draws least at each point.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Gears {
@@ -278,6 +278,8 @@ pub struct Uses<'a> {
     pub cycles: &'a [String],
     /// Vehicle.
     pub vehicle: Option<&'a String>,
+    /// Whether a grid may have `gear: best`.
+    pub best_gear: bool,
 }
 
 impl<'a> Uses<'a> {
@@ -293,6 +295,7 @@ impl<'a> Uses<'a> {
             bind: None,
             cycles: &[],
             vehicle: None,
+            best_gear: false,
         }
     }
 
