@@ -19,6 +19,7 @@ fn wltc(t: &Transmission, vehicle: &Vehicle, intervals: &[Interval], scheme: Sch
         port: "input",
         vehicle: Some(vehicle),
         gear: &t.states()[0].name,
+        choice: None,
         oil: OilTemperature::Network,
         spectrum: false,
         start: Some(23.0),

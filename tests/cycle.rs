@@ -67,6 +67,7 @@ fn driven_by(
         port: "input",
         vehicle: Some(vehicle),
         gear: &t.states()[0].name,
+        choice: None,
         oil: OilTemperature::Network,
         spectrum: false,
         start: Some(start),

@@ -144,6 +144,7 @@ fn driven(language: &Language, t: &Transmission, cycle: &str) -> Driven {
         port: "input",
         vehicle: Some(&car),
         gear: "only",
+        choice: None,
         oil: OilTemperature::Fixed(40.0),
         spectrum: false,
         start: None,

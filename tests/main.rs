@@ -32,6 +32,7 @@ mod explained;
 mod files;
 mod fit_rheology;
 mod fuzz;
+mod gear_choice;
 mod golden;
 mod grease;
 mod hold_out;

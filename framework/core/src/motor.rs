@@ -256,6 +256,20 @@ impl MotorMap {
         quadrant.loss(speed.abs(), torque.abs(), temperature)
     }
 
+    /// How far a speed \[rad/s\] and a torque \[Nm\] are outside the map, relative to its border; zero inside. \[-\]
+    pub fn excess(&self, speed: f64, torque: f64) -> f64 {
+        let generating = speed * torque < 0.0;
+        let quadrant = self
+            .generating
+            .as_ref()
+            .filter(|_| generating)
+            .unwrap_or(&self.motoring);
+        let (speeds, torques) = &quadrant.reach;
+        let excess = |x: f64, most: f64| if x > most * (1.0 + 1e-9) { x / most - 1.0 } else { 0.0 };
+        let of_speed = excess(speed.abs(), speeds[speeds.len() - 1]);
+        of_speed.max(excess(torque.abs(), clamped(speeds, torques, speed.abs())))
+    }
+
     /// The nodes of the motoring map, including filled corners: speed \[rad/s\], torque \[Nm\], temperature \[degC\] if the map has
     /// it, and loss \[W\].
     pub fn nodes(&self) -> Vec<(Vec<f64>, f64)> {

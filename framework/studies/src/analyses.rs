@@ -14,6 +14,7 @@ pub mod cycle;
 pub mod duties;
 pub mod engine;
 pub mod fluid_sweep;
+mod gears;
 pub mod head;
 pub mod identify;
 pub mod inputs;

@@ -28,6 +28,12 @@ gearloss_framework::document::codes! {
     OBJECTIVE = "E0521", "invalid objective of a search",
         cause: "`minimise` names a quantity that the cycles do not have, such as the consumption of a vehicle without a battery.",
         help: "Describe the battery and the machine, or minimise the mean loss.";
+    GEAR_CHOICE = "E0530", "invalid choice of gears",
+        cause: "Gears cannot be chosen in a cycle: its torques already depend on the gear, no gear connects the ports, or keys of `gear` contradict each other.",
+        help: "Use a cycle with the speed of a vehicle or loads at the wheels, and correct the key that the message names.";
+    SHIFT_MAP = "E0531", "invalid map of gears",
+        cause: "A file under `gear: { map: ... }` cannot be read, has no gear for a speed and torque of its grid, or names a gear that the gearbox does not have.",
+        help: "Correct the file: columns `speed [rpm]`, `torque [Nm]` and `gear`, with the same torques at each speed.";
     DATA = "E0601", "invalid measured data",
         cause: "A data file lacks a column, has cells that cannot be read, or has units or accuracies that contradict the study.",
         help: "Correct the file, or its description under `measurements`.";

@@ -5,12 +5,14 @@
 
 mod battery;
 mod cycle;
+mod shift_map;
 mod spectrum;
 mod trace;
 mod vehicle;
 
 pub use battery::{Battery, BatteryEntry, Consumption, ConsumptionColumn, distance};
 pub use cycle::{CycleEntry, Duty, FileCycleEntry, PhaseEntry, ShippedCycleEntry, SpectrumCycleEntry};
+pub use shift_map::ShiftMap;
 pub(crate) use spectrum::points;
 pub use spectrum::{Spectrum, SpectrumFile, SpectrumPoint};
 pub use trace::{Sample, Trace};

@@ -2,6 +2,7 @@
 
 mod cycle;
 mod derivatives;
+mod gear_rule;
 mod grid;
 mod locking;
 mod notes;
@@ -12,8 +13,9 @@ mod solve;
 mod sums;
 mod temperature;
 
-pub use cycle::{Driven, Ride, Stretch, can_drive, drive};
+pub use cycle::{Choosing, ChosenBy, Driven, GearChoice, Optimum, Ride, Shift, Stretch, can_drive, drive, has_machine};
 pub use derivatives::{Derivative, Derivatives, Derived, Method, Variable};
+pub use gear_rule::Rule;
 pub use gearloss_numerics::statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use locking::{SelfLocking, self_locking};

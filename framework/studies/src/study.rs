@@ -7,6 +7,7 @@ mod compare;
 mod data;
 mod drive;
 mod files;
+mod gear;
 mod identify;
 mod limits;
 mod names;
@@ -28,6 +29,7 @@ pub use compare::{Difference, Quantity};
 pub use data::Data;
 pub use drive::{DriveEntry, RideEntry};
 pub use files::Study;
+pub use gear::{BEST, Choose, ChosenGear, CycleGear};
 pub use identify::{
     FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, OverEntry, PriorEntry, ScaleEntry,
 };
@@ -194,7 +196,7 @@ pub struct Grid {
     pub bind: Ordered<Value>,
 }
 
-/// One or several gears.
+/// One or several gears; in a map `best` is the one that draws least at each point.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Gears {
@@ -276,6 +278,8 @@ pub struct Uses<'a> {
     pub cycles: &'a [String],
     /// Vehicle.
     pub vehicle: Option<&'a String>,
+    /// Whether a grid may have `gear: best`.
+    pub best_gear: bool,
 }
 
 impl<'a> Uses<'a> {
@@ -291,12 +295,13 @@ impl<'a> Uses<'a> {
             bind: None,
             cycles: &[],
             vehicle: None,
+            best_gear: false,
         }
     }
 
     pub(crate) fn driving(drive: &'a DriveEntry) -> Self {
         Self::new(drive.gearbox.as_ref(), &drive.model_sets)
-            .in_gears(&drive.gear)
+            .in_gears(drive.gear.iter().flat_map(CycleGear::names))
             .riding(Some(&drive.ride))
     }
 
@@ -304,6 +309,8 @@ impl<'a> Uses<'a> {
     pub(crate) fn riding(self, ride: Option<&'a RideEntry>) -> Self {
         let Some(ride) = ride else { return self };
         Self {
+            // Of cycles the best gear can be chosen.
+            gears: self.gears.into_iter().filter(|gear| *gear != BEST).collect(),
             cycles: &ride.cycles,
             vehicle: ride.vehicle.as_ref(),
             ..self

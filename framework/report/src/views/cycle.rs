@@ -1,5 +1,6 @@
 //! Cycles: tables of losses, energy and temperatures; figures of stacked losses, temperatures, torque and speed over time.
 
+mod gears;
 mod pictures;
 mod summary;
 
@@ -94,6 +95,7 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
     if let Some(consumption) = &duty.consumption {
         consumption_text(consumption, page);
     }
+    gears::text(duty, page);
     if energy.brakes_j > 0.0 {
         page.line(format!(
             "  dissipated in brakes: {} kJ",
@@ -132,6 +134,8 @@ fn consumption_text(consumption: &Consumption, page: &mut Page) {
         }
     ));
     let share = |of: Option<f64>| of.map_or_else(|| "-".to_owned(), |of| format!("{} %", short(100.0 * of)));
+    let shifts = consumption.shifts_kwh_per_100_km;
+    let shifts = shifts.map_or_else(String::new, |shifts| format!(", shifts {}", short(shifts)));
     page.line(format!(
         "  of it in kWh/100 km: vehicle {}, transmission {}, machine {}, brakes {}, auxiliaries {}, battery {}; system efficiency {}, \
          recuperated {} of the braking energy",
@@ -140,7 +144,7 @@ fn consumption_text(consumption: &Consumption, page: &mut Page) {
         short(consumption.machine_kwh_per_100_km),
         short(consumption.brakes_kwh_per_100_km),
         short(consumption.auxiliaries_kwh_per_100_km),
-        short(consumption.battery_kwh_per_100_km),
+        format!("{}{shifts}", short(consumption.battery_kwh_per_100_km)),
         share(consumption.system_efficiency),
         share(consumption.recuperated_share)
     ));

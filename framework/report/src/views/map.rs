@@ -5,6 +5,7 @@ mod panels;
 mod pictures;
 mod summary;
 
+use gearloss_studies::analyses::cycle::Criterion;
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownGrid, ShownPoint};
 use gearloss_studies::analyses::numbers::{RPM, tidy};
 use gearloss_studies::points::OilTemperature;
@@ -12,7 +13,7 @@ use gearloss_studies::points::OilTemperature;
 use crate::exports;
 use crate::page::Page;
 use crate::register_view;
-use crate::text::{TextTable, fixed, number, spread};
+use crate::text::{TextTable, fixed, number, short, spread};
 
 register_view!(MapOutcome, show);
 
@@ -44,6 +45,18 @@ fn show_map(name: &str, map: &MapOfSet, page: &mut Page) {
         map.model_set,
         map.bound_words()
     ));
+    if let Some(best) = &map.best_gears {
+        let parts = best.gears.iter().map(|gear| {
+            let share = short(100.0 * gear.share);
+            format!("{} at {} points ({share} %)", gear.gear, gear.points)
+        });
+        let compared = match best.criterion {
+            Criterion::MachinePower => "the power of the machine",
+            Criterion::GearboxLoss => "the loss of the gearbox, because no machine is described",
+        };
+        let parts: Vec<String> = parts.collect();
+        page.line(format!("best gear of each point by {compared}: {}", parts.join(", ")));
+    }
     let percent = |p: &ShownPoint| p.efficiency.map(|e| 100.0 * e);
     if let Some(grid) = &map.shown.grid {
         page.table(table(map, grid, &percent));

@@ -2,6 +2,7 @@
 
 mod bands;
 mod bearings;
+mod gears;
 mod outcome;
 mod points;
 pub(super) mod ratings;
@@ -36,6 +37,7 @@ use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::Table;
 
 pub use bearings::{BearingLoad, BearingLoads, Load, LoadCase};
+pub use gears::{Criterion, GearsOfDuty, OptimumOfDuty, TimeInGear};
 pub use ratings::RatedOverTime;
 pub use tables::NetworkTables;
 
@@ -159,7 +161,7 @@ impl Analysis for CycleAnalysisEntry {
         let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
         let built = cx.built(gearbox, &self.drive.model_sets)?;
         sums_energies(cx, &path, self.by)?;
-        let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
+        let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref().map(Into::into))?;
         self.check_reference(cx, &path, &duties)?;
         if self.load_classes.is_some() && !self.needs_loads() {
             let help = "delete it, or write `export: [bearing_loads]` or `[rexs_loads]`";
@@ -280,6 +282,7 @@ impl CycleAnalysisEntry {
         for (read, driven) in duties.list.iter().zip(driven) {
             let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));
             duty.consumption = duties.consumption(t, driven);
+            duty.gears = gears::gears(t, &duties.ride(t, read), driven);
             if let Some(ratings) = &ratings {
                 let rated = ratings::over_cycle(t, ratings, &duties.ride(t, read), driven);
                 duty.ratings = Some(rated.map_err(|list| b.gearbox.findings(list))?);
@@ -395,6 +398,12 @@ impl Outcome for CycleOutcome {
                     |(_, at)| at.inclination_deg,
                 )
             })
+            .each(self.gears_differ().then_some(()), |table, ()| {
+                let dissipated = "Energy that the shift at the start of the interval dissipates";
+                table
+                    .text("gear", "Gear", |(_, at)| &at.gear)
+                    .number("shift_j", "J", dissipated, |(_, at)| at.shift_j)
+            })
             .text("status", "State of the transmission", |(_, at)| at.status.name())
             .number("input_w", "W", "Input power", |(_, at)| at.input_w)
             .number("output_w", "W", "Output power", |(_, at)| at.output_w)
@@ -442,6 +451,11 @@ impl CycleOutcome {
     /// True if a cycle inclines the oil.
     fn inclines(&self) -> bool {
         self.cycles.iter().any(|duty| duty.inclination_deg.is_some())
+    }
+
+    /// True if gears are chosen or change in a cycle.
+    fn gears_differ(&self) -> bool {
+        self.cycles.iter().any(|duty| duty.gears.is_some())
     }
 
     /// Nodes of all cycles, in the order of the first.

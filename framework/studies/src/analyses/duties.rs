@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::codes;
 use crate::duty::{Battery, Consumption, Demand, Duty, Given, Interval, Vehicle, VehicleEntry};
-use crate::points::{Driven, OilTemperature, Ride, can_drive, drive};
+use crate::points::{Choosing, Driven, GearChoice, OilTemperature, Ride, can_drive, drive};
 use crate::study::{By, Conditions, RideEntry};
 use gearloss_framework::document::data::MeasuredFault;
 use gearloss_framework::document::{Diagnostic, classify};
@@ -13,6 +13,7 @@ use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
 
 use super::balance::reason;
+use super::gears::{GearOfCycles, check_gears};
 use super::shares::Shares;
 use super::trial::{Left, left};
 use super::{Built, Engine, Plan, Planner, Stopped, Work, gear_of};
@@ -47,6 +48,8 @@ pub struct Duties<'a> {
     entry: &'a RideEntry,
     /// Gear of cycles without one.
     gear: Option<&'a str>,
+    /// How gears are chosen instead.
+    choice: Option<GearChoice>,
     conditions: &'a Conditions,
 }
 
@@ -122,7 +125,12 @@ impl Plan for DrivePlan<'_> {
 
 impl<'a> Duties<'a> {
     /// Reads the cycles of an analysis at a path.
-    pub fn new(cx: &Planner<'a>, path: &str, entry: &'a RideEntry, gear: Option<&'a String>) -> Result<Self, Stopped> {
+    pub fn new(
+        cx: &Planner<'a>,
+        path: &str,
+        entry: &'a RideEntry,
+        gear: Option<GearOfCycles<'a>>,
+    ) -> Result<Self, Stopped> {
         let study = &cx.study.entry;
         if entry.step.is_some() && entry.tolerance.is_some() {
             let message = "both `step` and `tolerance` are given";
@@ -213,7 +221,12 @@ impl<'a> Duties<'a> {
             vehicle_id: vehicle_id.unwrap_or_default(),
             battery,
             entry,
-            gear: gear.map(String::as_str),
+            gear: gear.and_then(GearOfCycles::name),
+            choice: match gear {
+                // The gear of a sweep or comparison over cycles is beside `drive`.
+                Some(gear) => gear.choice(cx, &format!("{}.gear", path.strip_suffix(".drive").unwrap_or(path)))?,
+                None => None,
+            },
             conditions: &study.conditions,
         })
     }
@@ -300,6 +313,10 @@ impl<'a> Duties<'a> {
             let help = "delete them, or state `conditions: { oil_temperature: ... }`; a column under `temperatures`, with its node, is used for comparison";
             return Err(cx.wrong_as(codes::DUTY, &read.place, message, help));
         }
+        if let Some(choice) = &self.choice {
+            let names: Vec<&str> = b.transmission.states().iter().map(|s| s.name.as_str()).collect();
+            check_gears(cx, choice, &names)?;
+        }
         for read in &self.list {
             can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(cx, read, list))?;
         }
@@ -367,6 +384,10 @@ impl<'a> Duties<'a> {
                 .unwrap_or(&t.ports()[t.reference_port()].name),
             vehicle: self.vehicle.as_ref(),
             gear: gear_of(self.gear, t),
+            choice: self.choice.as_ref().map(|choice| Choosing {
+                choice,
+                machine: self.battery.as_ref().and_then(|battery| battery.motor.as_ref()),
+            }),
             oil: OilTemperature::from_conditions(t, self.conditions.oil_temperature),
             spectrum: matches!(read.duty, Duty::Spectrum(_)),
             start: self.entry.start,
@@ -389,7 +410,10 @@ fn unfit(cx: &Planner<'_>, read: &Read, list: Vec<Diagnostic>) -> Stopped {
         } else {
             ""
         };
-        error.path = format!("{}{key}", read.place);
+        // A choice of gears states its own place.
+        if error.code != Some(codes::GEAR_CHOICE) {
+            error.path = format!("{}{key}", read.place);
+        }
         error
     };
     let mut list: Vec<Diagnostic> = list.into_iter().map(at_duty).collect();

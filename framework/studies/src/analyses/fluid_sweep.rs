@@ -220,7 +220,7 @@ impl Analysis for FluidSweepEntry {
         let gearbox = cx.gearbox(self.drive.gearbox.as_ref())?;
         sums_energies(cx, &path, self.by)?;
         self.check_keys(cx, &path)?;
-        let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
+        let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref().map(Into::into))?;
         let drive = DrivePlan::new(cx, &path, duties, cx.built(gearbox, &self.drive.model_sets)?)?;
         let oils = |b: &Arc<Built<'a>>| {
             let swept = Swept::new(cx, &path, self, b)?;

@@ -1,6 +1,7 @@
 //! Losses and efficiency over a grid, or at the points of a file.
 
 mod axes;
+mod best;
 mod entry;
 pub mod export;
 mod exported;
@@ -18,6 +19,7 @@ use gearloss_framework::loss::Extent;
 use serde_json::Value;
 
 pub use axes::Axes;
+pub use best::{BestGears, PointsInGear};
 pub use entry::MapEntry;
 pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, Refusal};
 pub use outcome::{MapOfSet, MapOutcome, Mark, NotesOfSet, PartModel, SumMeaning};
@@ -40,7 +42,7 @@ use crate::points::{
     Note, Numbered, OilTemperature, Piece, PointResult, SUMS, TotalLoss, evidence, merge, notes_with_shares,
 };
 use crate::register_analysis;
-use crate::study::{Data, Uses, Write};
+use crate::study::{BEST, Data, Uses, Write};
 use crate::table::Table;
 
 register_analysis!(MapEntry);
@@ -75,7 +77,11 @@ struct ListedPoints<'a> {
 impl Plan for MapPlan<'_> {
     fn work(&self) -> Vec<Work> {
         match &self.points {
-            PointsOfMap::Grid(planned) => Work::of_runs(planned.iter().map(|plan| &plan.run)),
+            PointsOfMap::Grid(planned) => Work::of_runs(planned.iter().flat_map(|plan| {
+                // The best gear is found from all gears.
+                let own = plan.gears.is_empty().then_some(&plan.run);
+                own.into_iter().chain(&plan.gears)
+            })),
             PointsOfMap::List(listed) => listed.rows.work(),
         }
     }
@@ -89,6 +95,7 @@ impl Analysis for MapEntry {
     fn uses(&self) -> Uses<'_> {
         Uses {
             grid: self.grid.as_ref(),
+            best_gear: true,
             ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
                 .in_gears(&self.gear)
                 .bind(&self.bind)
@@ -184,10 +191,24 @@ impl MapEntry {
         let mut maps = engine.parts(planned, |plan| {
             let mut map = Map::new(&plan.run, &plan.bound, plan.run.points.oil, &rows);
             map.shown = ShownMap::new(Some(&plan.axes), whole);
-            let selection = Selection::new(Some(&plan.axes), whole);
-            let taker = rows.taker(&plan.run, &plan.bound, &selection);
-            let take = |points: &mut Numbered<'_>| taker.take(points);
-            engine.solve_pieces(&plan.run, &take, &mut |piece| map.add(piece, &mut rows))?;
+            let runs = if plan.gears.is_empty() {
+                vec![plan.run.clone()]
+            } else {
+                let runs = best::chosen(engine, &plan.gears)?;
+                map.gears = best::gears(&runs);
+                runs
+            };
+            for run in &runs {
+                let number = map.gears.as_ref().and_then(|_| {
+                    let states = run.built.transmission.states();
+                    states.iter().position(|state| state.name == run.points.gear)
+                });
+                let selection = Selection::new(Some(&plan.axes), whole).in_gear(number);
+                let taker = rows.taker(run, &plan.bound, &selection);
+                let take = |points: &mut Numbered<'_>| taker.take(points);
+                map.first = map.rows.len();
+                engine.solve_pieces(run, &take, &mut |piece| map.add(piece, &mut rows))?;
+            }
             map.notes = notes_with_shares(&plan.run.built.transmission, &map.seen, map.lost);
             Ok(map)
         })?;
@@ -397,6 +418,10 @@ struct Map<'a> {
     inside: [usize; 2],
     /// Its rows in the table, if stored.
     rows: Range<usize>,
+    /// Number of its rows before those of the present run.
+    first: usize,
+    /// Gears of a map in the best gear of each point.
+    gears: Option<BestGears>,
     export: ExportData,
 }
 
@@ -415,6 +440,8 @@ impl<'a> Map<'a> {
             undefined: Vec::new(),
             inside: [0; 2],
             rows: rows.table.len()..rows.table.len(),
+            first: 0,
+            gears: None,
             export: ExportData::default(),
         }
     }
@@ -431,7 +458,10 @@ impl<'a> Map<'a> {
             self.inside[1] += taken.inside[1];
             tables.push(taken.rows);
             picked.push(taken.picked);
-            undefined.extend(taken.undefined);
+            undefined.extend(taken.undefined.into_iter().map(|loss| UndefinedLoss {
+                number: loss.number + self.first,
+                ..loss
+            }));
         }));
         self.shown.add(picked);
         if !rows.wanted {
@@ -463,10 +493,15 @@ impl<'a> Map<'a> {
                 self.rows,
                 self.undefined,
                 &rows.limits,
-            ),
+            )
+            .naming_gears(self.gears.is_some()),
             limits: rows.limits.clone(),
             model_set: built.name.clone(),
-            gear: self.run.points.gear.clone(),
+            gear: match &self.gears {
+                Some(_) => BEST.to_owned(),
+                None => self.run.points.gear.clone(),
+            },
+            best_gears: self.gears,
             bound: self.bound.into_iter().collect(),
             oil_temperature_degc: self.oil.given(),
             sums: SUMS.iter().map(|(sum, meaning)| SumMeaning { sum, meaning }).collect(),

@@ -138,7 +138,7 @@ impl Analysis for OptimiseEntry {
             let help = "give one, and write an analysis for each other one";
             return Err(cx.wrong(&format!("{path}.model_sets"), "a search has one model set", help));
         }
-        let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref())?;
+        let duties = Duties::new(cx, &path, &self.drive.ride, self.drive.gear.as_ref().map(Into::into))?;
         let drive = DrivePlan::new(cx, &path, duties, cx.built(gearbox, &self.drive.model_sets)?)?;
         let b = &drive.built[0];
         let variables = Variable::all(cx, &path, &self.variables, b)?;

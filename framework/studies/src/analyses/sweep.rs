@@ -176,7 +176,7 @@ impl Analysis for SweepEntry {
             return Err(cx.wrong(&path, message, "delete `drive`, or `torque` and `speed`"));
         }
         sums_energies(cx, &path, self.by)?;
-        let duties = Duties::new(cx, &format!("{path}.drive"), ride, self.gear.as_ref())?;
+        let duties = Duties::new(cx, &format!("{path}.drive"), ride, self.gear.as_ref().map(Into::into))?;
         let drive = DrivePlan::new(cx, &path, duties, built)?;
         let limits = drive.built.iter();
         let limits = limits.map(|b| limits_of(cx, &path, &Ordered::default(), &drive.duties, b));

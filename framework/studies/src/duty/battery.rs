@@ -54,6 +54,9 @@ pub struct Consumption {
     pub brakes_kwh_per_100_km: f64,
     /// Energy of the auxiliaries. [kWh/100 km]
     pub auxiliaries_kwh_per_100_km: f64,
+    /// Energy that shifts dissipate, with that of the actuator; absent if gears are not chosen. [kWh/100 km]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shifts_kwh_per_100_km: Option<f64>,
     /// Loss of the battery and of everything else that its efficiencies contain. [kWh/100 km]
     pub battery_kwh_per_100_km: f64,
     /// What the consumption differs from the sum of its parts, relative to the energy that was drawn and recuperated. [-]
@@ -205,6 +208,8 @@ struct Moment {
     wheels: f64,
     brakes: f64,
     auxiliaries: f64,
+    /// Dissipated by a shift.
+    shift: f64,
 }
 
 /// Where the energy of the battery goes. \[J\]
@@ -215,6 +220,7 @@ struct Parts {
     wheels: f64,
     brakes: f64,
     auxiliaries: f64,
+    shifts: f64,
     /// At the terminals of the battery.
     electric: f64,
     /// Of the machine while it drives, and then at the wheels.
@@ -231,6 +237,7 @@ impl Parts {
         self.wheels += moment.wheels;
         self.brakes += moment.brakes;
         self.auxiliaries += moment.auxiliaries;
+        self.shifts += moment.shift;
         self.electric += moment.shaft + moment.motor + moment.auxiliaries;
         if moment.wheels > 0.0 {
             self.electric_drive += moment.shaft + moment.motor;
@@ -242,7 +249,7 @@ impl Parts {
 
     /// All but what the battery loses itself.
     fn sum(&self) -> f64 {
-        self.wheels + self.brakes + self.loss + self.motor + self.auxiliaries
+        self.wheels + self.brakes + self.loss + self.motor + self.auxiliaries + self.shifts
     }
 }
 
@@ -259,15 +266,26 @@ impl Battery {
         let mut beyond = driven.total.beyond_map;
         for stretch in &driven.stretches {
             let time = stretch.heats.duration;
-            let shaft = stretch.torque * stretch.speed * time;
+            let of_transmission = stretch.torque * stretch.speed * time;
             let (motor, outside) = self.motor_loss(stretch, oil);
             beyond |= outside;
             let other = motor + self.entry.auxiliaries * time;
+            // What a shift dissipates, the machine supplies; what the rotating parts release, it saves.
+            let [heat, released] = stretch.shift.map_or([0.0; 2], |shift| [shift.heat, shift.released]);
+            let shaft = match stretch.shift {
+                Some(_) => of_transmission + heat - released,
+                None => of_transmission,
+            };
             let loss = stretch.heats.parts.iter().sum::<f64>();
             let avoidable = if stretch.brakes > 0.0 { 0.0 } else { loss };
             real.add(&self.entry, shaft + other);
             ideal.add(&self.entry, shaft - avoidable + other);
-            let (wheels, loss) = self.wheels(stretch, shaft, loss);
+            let (wheels, loss) = self.wheels(stretch, of_transmission, loss);
+            let wheels = if stretch.shift.is_some() {
+                wheels - released
+            } else {
+                wheels
+            };
             parts.add(&Moment {
                 shaft,
                 motor,
@@ -275,6 +293,7 @@ impl Battery {
                 wheels: wheels - stretch.brakes,
                 brakes: stretch.brakes,
                 auxiliaries: self.entry.auxiliaries * time,
+                shift: heat,
             });
         }
         let per = |energy: f64| energy / distance / KWH_PER_100_KM;
@@ -292,6 +311,7 @@ impl Battery {
             machine_kwh_per_100_km: per(parts.motor),
             brakes_kwh_per_100_km: per(parts.brakes),
             auxiliaries_kwh_per_100_km: per(parts.auxiliaries),
+            shifts_kwh_per_100_km: driven.is_chosen.then(|| per(parts.shifts)),
             battery_kwh_per_100_km: per(real.net() - parts.electric),
             residual_share: (parts.electric - parts.sum()).abs()
                 / (real.drawn + real.recuperated).max(f64::MIN_POSITIVE),

@@ -3,6 +3,9 @@
 //! Each interval has constant speeds and torques. At the wheels of a vehicle the torque is given at the output, and the losses of the
 //! transmission determine the input torque; while braking, regeneration at the input is limited, and the brakes supply the remainder.
 
+mod gears;
+
+use self::gears::{Chooser, Chosen, drive_optimum};
 use super::OilTemperature;
 use crate::duty::{Demand, Interval, Vehicle, input_torque};
 use gearloss_framework::document::Diagnostic;
@@ -15,6 +18,8 @@ use gearloss_framework::thermal::network::{Heats, March, Moment, Passed, Scheme,
 use gearloss_framework::transmission::{Case, Transmission, WHEELS};
 use serde::{Deserialize, Serialize};
 
+pub use self::gears::{Choosing, ChosenBy, GearChoice, Optimum, Shift, has_machine};
+
 /// Settings of a simulation.
 #[derive(Clone, Copy)]
 pub struct Ride<'a> {
@@ -26,6 +31,8 @@ pub struct Ride<'a> {
     pub vehicle: Option<&'a Vehicle>,
     /// Gear if the cycle states none.
     pub gear: &'a str,
+    /// How the gears of intervals without one are chosen; absent: the stated gear.
+    pub choice: Option<Choosing<'a>>,
     /// Origin of the temperatures.
     pub oil: OilTemperature,
     /// True for loads without order in time; each is solved at its own steady-state temperature.
@@ -63,6 +70,12 @@ pub struct Stretch {
     pub temperatures: Vec<f64>,
     /// State of the transmission.
     pub status: Status,
+    /// Number of the gear state.
+    pub gear: usize,
+    /// The shift at its start, if gears are chosen.
+    pub shift: Option<Shift>,
+    /// True if every gear is beyond a limit of the choice.
+    pub beyond_limits: bool,
 }
 
 /// A simulated cycle.
@@ -88,6 +101,10 @@ pub struct Driven {
     pub steps: [usize; 2],
     /// Time at which the simulation stopped, and why.
     pub broken: Option<(f64, Unbalanced)>,
+    /// True if gears are chosen.
+    pub is_chosen: bool,
+    /// Least energy against the rule, if the gears have the least energy.
+    pub optimum: Option<Optimum>,
 }
 
 /// Port of the given torque.
@@ -147,6 +164,7 @@ impl Cases<'_> {
 }
 
 /// Demand of an interval.
+#[derive(Clone, Copy)]
 struct Asked {
     place: usize,
     torque: f64,
@@ -164,6 +182,7 @@ struct Planned<'a> {
     interval: &'a Interval,
     asked: Asked,
     around: Surroundings,
+    chosen: Chosen,
 }
 
 impl<'a> Cases<'a> {
@@ -205,6 +224,7 @@ pub fn can_drive(transmission: &Transmission, ride: &Ride<'_>) -> Result<(), Vec
                 .help(help),
         ]);
     }
+    Chooser::new(&mut cases)?;
     for interval in ride.intervals {
         let gear = interval.given.gear.as_deref().unwrap_or(ride.gear);
         match (interval.demand, ride.vehicle) {
@@ -229,8 +249,22 @@ pub fn drive(
     ride: &Ride<'_>,
     progress: &dyn Fn(usize) -> bool,
 ) -> Result<Option<Driven>, Vec<Diagnostic>> {
+    match ride.choice.map(|choosing| &choosing.choice.by) {
+        Some(ChosenBy::Optimum(_)) => drive_optimum(transmission, ride, progress),
+        _ => drive_through(transmission, ride, None, progress),
+    }
+}
+
+/// Simulates a cycle once; `given` are the numbers of chosen gears, if they are known.
+fn drive_through(
+    transmission: &Transmission,
+    ride: &Ride<'_>,
+    given: Option<Vec<usize>>,
+    progress: &dyn Fn(usize) -> bool,
+) -> Result<Option<Driven>, Vec<Diagnostic>> {
     let reference = transmission.reference_port();
     let mut cases = Cases::new(transmission, ride)?;
+    let mut chooser = Chooser::new(&mut cases)?.map(|chooser| chooser.with_given(given));
     let wheels = cases.wheels;
     let member = |port: usize| transmission.ports()[port].member;
     let first = around(ride, ride.intervals.first());
@@ -253,6 +287,8 @@ pub fn drive(
         calls: 0,
         steps: [0; 2],
         broken: None,
+        is_chosen: chooser.is_some(),
+        optimum: None,
     };
     let mut rest = ride.intervals;
     while let Some(first) = rest.first() {
@@ -260,7 +296,11 @@ pub fn drive(
             .as_ref()
             .map_or(1, |march| march.reach(rest.iter().map(|interval| interval.duration)));
         let warm = march.as_ref().map(|march| march.temperatures.as_slice());
-        let planned = plan(&mut cases, &rest[..together], warm, &mut driven)?;
+        let chosen = match &mut chooser {
+            Some(chooser) => chooser.choose(&mut cases, (rest, together), warm, &mut driven)?,
+            None => stated(&cases, &rest[..together])?,
+        };
+        let planned = plan(&mut cases, (&rest[..together], &chosen), warm, &mut driven)?;
         let passed = match &mut march {
             Some(march) => advance(march, &mut cases, &planned),
             None => steady(&mut cases, &planned[0], &mut driven).map(|passed| vec![passed]),
@@ -274,11 +314,17 @@ pub fn drive(
         };
         rest = &rest[passed.len()..];
         for (passed, planned) in passed.into_iter().zip(&planned) {
-            driven.take(passed, planned, member(reference), wheels.map(member));
+            let shift = chooser
+                .as_mut()
+                .and_then(|chooser| chooser.pass(ride, planned.interval, &planned.chosen));
+            driven.take(passed, planned, shift, (member(reference), wheels.map(member)));
             if !progress(1) {
                 return Ok(None);
             }
         }
+    }
+    if chooser.is_some() {
+        driven.start_in_first_gear(ride);
     }
     if let (true, Some(first)) = (march.is_none(), driven.stretches.first()) {
         // Steady-state: there is no initial state.
@@ -301,16 +347,20 @@ pub fn drive(
 /// the first.
 fn plan<'i>(
     cases: &mut Cases<'_>,
-    intervals: &'i [Interval],
+    (intervals, chosen): (&'i [Interval], &[Chosen]),
     warm: Option<&[f64]>,
     driven: &mut Driven,
 ) -> Result<Vec<Planned<'i>>, Vec<Diagnostic>> {
     let mut planned = Vec::with_capacity(intervals.len());
-    for interval in intervals {
+    for (interval, chosen) in intervals.iter().zip(chosen) {
+        if !chosen.is_clear && !planned.is_empty() {
+            break;
+        }
         let around = around(cases.ride, Some(interval));
-        let mut asked = ask(cases, interval, &around)?;
+        let gear = &cases.transmission.states()[chosen.state].name;
+        let mut asked = ask(cases, interval, &around, gear)?;
         if let Some(lossless) = asked.limited {
-            let (limited, is_clear) = limit(cases, asked, (interval, &around, lossless), warm, driven)?;
+            let (limited, is_clear) = limit(cases, asked, (interval, &around, lossless), gear, (warm, driven))?;
             if !is_clear && !planned.is_empty() {
                 break;
             }
@@ -320,9 +370,24 @@ fn plan<'i>(
             interval,
             asked,
             around,
+            chosen: *chosen,
         });
     }
     Ok(planned)
+}
+
+/// The stated gears of intervals.
+fn stated(cases: &Cases<'_>, intervals: &[Interval]) -> Result<Vec<Chosen>, Vec<Diagnostic>> {
+    let of = |interval: &Interval| {
+        let gear = interval.given.gear.as_deref().unwrap_or(cases.ride.gear);
+        Ok(Chosen {
+            state: cases.transmission.state(gear).map_err(|e| vec![e])?,
+            forced: false,
+            beyond: false,
+            is_clear: true,
+        })
+    };
+    intervals.iter().map(of).collect()
 }
 
 /// Simulates the first of some intervals, and those of the others that are simulated together with it.
@@ -351,8 +416,14 @@ fn advance(march: &mut March<'_>, cases: &mut Cases<'_>, planned: &[Planned<'_>]
 }
 
 impl Driven {
-    /// Takes over a simulated interval. Members: those of the reference port and of the wheels.
-    fn take(&mut self, passed: Passed, planned: &Planned<'_>, reference: usize, wheels: Option<usize>) {
+    /// Takes over a simulated interval with the shift at its start. Members: those of the reference port and of the wheels.
+    fn take(
+        &mut self,
+        passed: Passed,
+        planned: &Planned<'_>,
+        shift: Option<Shift>,
+        (reference, wheels): (usize, Option<usize>),
+    ) {
         let Planned { interval, asked, .. } = planned;
         let taken = |member: usize| passed.port_torques[member] * passed.speeds[member];
         let brakes = match asked.brakes {
@@ -375,7 +446,22 @@ impl Driven {
             wheels,
             temperatures: passed.temperatures,
             status: passed.status,
+            gear: planned.chosen.state,
+            shift,
+            beyond_limits: planned.chosen.beyond,
         });
+    }
+
+    /// The vehicle waits in the gear in which it starts.
+    fn start_in_first_gear(&mut self, ride: &Ride<'_>) {
+        let waits = |interval: &Interval| interval.demand == Demand::Rest && interval.given.gear.is_none();
+        let waiting = ride.intervals.iter().take_while(|interval| waits(interval)).count();
+        let Some(gear) = self.stretches.get(waiting).map(|first| first.gear) else {
+            return;
+        };
+        for stretch in &mut self.stretches[..waiting] {
+            stretch.gear = gear;
+        }
     }
 }
 
@@ -411,9 +497,13 @@ fn around(ride: &Ride<'_>, interval: Option<&Interval>) -> Surroundings {
     }
 }
 
-/// Torque and speed of an interval, and their ports; the torque may still be limited.
-fn ask(cases: &mut Cases<'_>, interval: &Interval, around: &Surroundings) -> Result<Asked, Vec<Diagnostic>> {
-    let gear = interval.given.gear.as_deref().unwrap_or(cases.ride.gear);
+/// Torque and speed of an interval in a gear, and their ports; the torque may still be limited.
+fn ask(
+    cases: &mut Cases<'_>,
+    interval: &Interval,
+    around: &Surroundings,
+    gear: &str,
+) -> Result<Asked, Vec<Diagnostic>> {
     let ride = cases.ride;
     let (torque, speed) = match interval.demand {
         Demand::Rest => (0.0, 0.0),
@@ -488,8 +578,8 @@ fn limit(
     cases: &mut Cases<'_>,
     asked: Asked,
     (interval, around, [ideal, input_speed]): (&Interval, &Surroundings, [f64; 2]),
-    warm: Option<&[f64]>,
-    driven: &mut Driven,
+    gear: &str,
+    (warm, driven): (Option<&[f64]>, &mut Driven),
 ) -> Result<(Asked, bool), Vec<Diagnostic>> {
     let (t, ride) = (cases.transmission, cases.ride);
     let given = interval.given.oil_temperature.or(ride.oil.given());
@@ -511,7 +601,6 @@ fn limit(
     if !exceeds(asked_torque) {
         return Ok((asked, is_clear));
     }
-    let gear = interval.given.gear.as_deref().unwrap_or(ride.gear);
     let place = cases.place(gear, At::Input)?;
     let torque = regained(asked_torque);
     Ok((Asked { place, torque, ..asked }, is_clear))
@@ -528,32 +617,42 @@ fn point_of<'a>(case: &Case, ride: &Ride<'_>, asked: &'a Asked, inclination: f64
     }
 }
 
-/// A steady-state interval: at a given temperature, or at the equilibrium with its own losses.
-fn steady(cases: &mut Cases<'_>, planned: &Planned<'_>, driven: &mut Driven) -> Result<Passed, Unbalanced> {
+/// The temperatures of a steady-state interval: given, or those of the equilibrium with its own losses.
+fn steady_temperatures(
+    cases: &mut Cases<'_>,
+    interval: &Interval,
+    asked: &Asked,
+    around: &Surroundings,
+) -> Result<super::Found, Unbalanced> {
     let (t, ride) = (cases.transmission, cases.ride);
-    let Planned { interval, asked, .. } = planned;
     let (case, scratch) = (&cases.known[asked.place].1, cases.scratches[asked.place].alone());
-    let moment = Moment {
-        case,
-        point: &point_of(case, ride, asked, interval.inclination),
-        around: &planned.around,
-    };
-    let duration = interval.duration;
+    let point = &point_of(case, ride, asked, interval.inclination);
     let wanted = interval.given.oil_temperature.map_or(ride.oil, OilTemperature::Fixed);
-    let warm = match wanted {
+    Ok(match wanted {
         OilTemperature::Network => {
+            let moment = Moment { case, point, around };
             let steady = t.steady(&moment, scratch).ok_or(Unbalanced::Flow)?;
             super::Found::steady(t, steady)
         }
-        other => other.find(t, moment.case, moment.point, scratch),
-    };
+        other => other.find(t, case, point, scratch),
+    })
+}
+
+/// A steady-state interval: at a given temperature, or at the equilibrium with its own losses.
+fn steady(cases: &mut Cases<'_>, planned: &Planned<'_>, driven: &mut Driven) -> Result<Passed, Unbalanced> {
+    let Planned { interval, asked, .. } = planned;
+    let warm = steady_temperatures(cases, interval, asked, &planned.around)?;
+    let (t, ride) = (cases.transmission, cases.ride);
+    let (case, scratch) = (&cases.known[asked.place].1, cases.scratches[asked.place].alone());
+    let point = &point_of(case, ride, asked, interval.inclination);
+    let duration = interval.duration;
     if !warm.is_sound() {
         let balance = warm.balance.as_ref().and_then(|b| b.undefined);
         let network = warm.network.as_ref().and_then(|n| n.undefined);
         return Err(balance.map(|(_, why)| why).or(network).unwrap_or(Unbalanced::Flow));
     }
     driven.evaluations += warm.evaluations() + 1;
-    t.try_point(moment.case, moment.point, warm.temperatures(), scratch, Noting::Counted)?;
+    t.try_point(case, point, warm.temperatures(), scratch, Noting::Counted)?;
     for (cell, watts) in scratch.lost_outside() {
         driven.lost_outside[cell] += watts * duration;
     }

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::CycleGear;
 use crate::duty::SpectrumPoint;
 use gearloss_framework::thermal::network::Scheme;
 
@@ -12,9 +13,8 @@ pub struct DriveEntry {
     /// Gearbox; default: the first.
     #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
-    /// Gear of cycles without a gear; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
+    /// Gear of cycles without a gear; default: the first. `best` chooses the gear that draws least, an entry states how gears are chosen.
+    pub gear: Option<CycleGear>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "model_sets"))]

@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 use super::names::devices;
 use super::parameters::{TakenOver, replace_names, written_at};
 use super::then::{PromisedSets, promised_sets};
-use super::{Data, Grid, StudyEntry, Uses};
+use super::{BEST, Data, Grid, StudyEntry, Uses};
 use crate::analyses::numbers::word;
 use crate::analyses::{AnalysisEntry, AnalysisKind};
 use crate::codes;
@@ -463,6 +463,7 @@ impl Study {
                 grid,
                 sets,
                 gears,
+                best_gear,
                 ..
             } = analysis.uses();
             found.extend(self.check_names(&path, &analysis.uses()));
@@ -509,6 +510,9 @@ impl Study {
                 }
                 for gear in of_grid.iter().flat_map(|(_, grid)| grid.gear.names()) {
                     let name = of_grid.map_or("", |(name, _)| name.as_str());
+                    if best_gear && gear == BEST {
+                        continue;
+                    }
                     unknown(format!("grids.{name}.gear"), gear);
                 }
             }

@@ -130,6 +130,11 @@ impl Network {
         [share * loss, (1.0 - share) * loss]
     }
 
+    /// How far a speed (rad/s) and a torque (Nm) are outside the map of a motor, relative to its border. \[-\]
+    pub fn motor_excess(&self, motor: usize, speed: f64, torque: f64) -> f64 {
+        self.motors[motor].map.excess(speed, torque)
+    }
+
     /// Speeds (rad/s) and torques (Nm) of the map of a motor, both ascending and not negative.
     pub fn motor_axes(&self, motor: usize) -> [Vec<f64>; 2] {
         let nodes = self.motors[motor].map.nodes();

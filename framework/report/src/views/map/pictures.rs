@@ -41,6 +41,10 @@ pub fn quantities(outcome: &MapOutcome) -> Vec<Quantity> {
         quantity(("loss", "loss", "W"), Best::Lowest, |p| p.loss),
         quantity(("loss-torque", "loss torque", "Nm"), Best::Lowest, |p| p.loss_torque),
     ];
+    if outcome.maps.iter().any(|m| m.best_gears.is_some()) {
+        let names = ("gear", "number of the best gear", "-");
+        all.push(quantity(names, Best::Lowest, |p| p.gear.map(|gear| gear as f64 + 1.0)));
+    }
     if outcome.maps.iter().any(|m| m.oil == OilTemperature::Balance) {
         let names = ("temperature", "oil temperature", "degC");
         all.push(quantity(names, Best::Lowest, |p| p.oil));

@@ -102,7 +102,7 @@ pub(super) fn plan<'a>(
     let path = cx.path();
     let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
     sums_energies(cx, &path, entry.by)?;
-    let duties = Duties::new(cx, &format!("{path}.drive"), ride, entry.gear.as_ref())?;
+    let duties = Duties::new(cx, &format!("{path}.drive"), ride, entry.gear.as_ref().map(Into::into))?;
     let built = cases(cx, entry, gearbox, &names(entry, base))?;
     DrivePlan::new(cx, &path, duties, built)
 }

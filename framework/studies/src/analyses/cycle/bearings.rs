@@ -97,7 +97,7 @@ pub fn bearing_loads(
     classes: u32,
 ) -> Result<BearingLoads, Vec<Diagnostic>> {
     let mut points = Points::new(t, ride.flow);
-    let intervals = Points::of(ride, driven);
+    let intervals = Points::of(t, driven);
     let time: f64 = intervals.iter().map(|at| at.duration).sum();
     let is_sorted = matches!(read.duty, Duty::Trace(_)) && classes > 0;
     let mut solve = |all: &[(At<'_>, usize)]| -> Result<Vec<LoadCase>, Vec<Diagnostic>> {

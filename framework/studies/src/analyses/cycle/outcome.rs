@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::CycleExport;
 use super::bearings::BearingLoads;
+use super::gears::GearsOfDuty;
 use super::ratings::RatedOverTime;
 use super::tables::NetworkTables;
 use crate::analyses::Head;
@@ -65,6 +66,9 @@ pub struct DutyOfSet {
     pub per_distance: Option<EnergyPerDistance>,
     /// Energy of the vehicle; absent without a battery or without distance.
     pub consumption: Option<Consumption>,
+    /// Time and energy in each gear, and shifts; absent if one gear is stated and used throughout.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gears: Option<GearsOfDuty>,
     /// Heat balance; absent without a thermal network.
     pub heat: Option<HeatOfDuty>,
     /// Losses of the motors of the thermal network.
@@ -281,6 +285,10 @@ pub struct IntervalOfDuty {
     pub vehicle_speed_m_s: Option<f64>,
     /// Inclination of the oil by grade and acceleration; absent if the cycle does not incline it. [deg]
     pub inclination_deg: Option<f64>,
+    /// Name of the gear.
+    pub gear: String,
+    /// Energy that the shift at its start dissipates. [J]
+    pub shift_j: Option<f64>,
     /// State of the transmission.
     pub status: Status,
     /// Input power. [W]

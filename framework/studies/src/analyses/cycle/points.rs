@@ -7,7 +7,7 @@ use gearloss_framework::evaluate::{Point, PowerFlow, Scratch, Solution};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::transmission::{Case, Transmission};
 
-use crate::points::{Driven, Ride};
+use crate::points::Driven;
 
 /// An operating point at the reference port.
 #[derive(Debug, Clone)]
@@ -43,11 +43,11 @@ impl<'a> Points<'a> {
     }
 
     /// The simulated intervals of a cycle, at the end of each.
-    pub fn of<'r>(ride: &Ride<'r>, driven: &Driven) -> Vec<At<'r>> {
-        let intervals = driven.stretches.iter().zip(ride.intervals);
-        intervals
-            .map(|(stretch, interval)| At {
-                gear: interval.given.gear.as_deref().unwrap_or(ride.gear),
+    pub fn of<'t>(t: &'t Transmission, driven: &Driven) -> Vec<At<'t>> {
+        let stretches = driven.stretches.iter();
+        stretches
+            .map(|stretch| At {
+                gear: &t.states()[stretch.gear].name,
                 torque: stretch.torque,
                 speed: stretch.speed,
                 temperatures: stretch.temperatures.clone(),

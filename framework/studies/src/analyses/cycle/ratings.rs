@@ -59,7 +59,7 @@ pub fn over_cycle(
     let mut points = Points::new(t, ride.flow);
     // By component, rating and order of the quantity in it.
     let mut courses: BTreeMap<(usize, &'static str, usize), Course> = BTreeMap::new();
-    for (i, at) in Points::of(ride, driven).into_iter().enumerate() {
+    for (i, at) in Points::of(t, driven).into_iter().enumerate() {
         points.solve(&at, |solution| {
             for rating in ratings.at(solution) {
                 let Ok(rated) = &rating.result else { continue };

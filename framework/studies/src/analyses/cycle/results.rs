@@ -38,7 +38,7 @@ pub fn duty(
         .collect();
     let series = |(i, s): (usize, &Stretch)| IntervalOfDuty {
         inclination_deg: inclinations.get(i).copied(),
-        ..interval(s, shares, energy.motors_j.is_some(), &measured)
+        ..interval(t, s, shares, energy.motors_j.is_some(), &measured)
     };
     let series = driven.stretches.iter().enumerate().map(series).collect();
     DutyOfSet {
@@ -52,6 +52,7 @@ pub fn duty(
         energy,
         per_distance: per_distance(driven),
         consumption: None,
+        gears: None,
         heat: heat(t, driven),
         motors: motors(t, driven),
         motors_beyond_map: driven.total.beyond_map,
@@ -224,7 +225,13 @@ fn calculated_at(driven: &Driven, node: usize, time: f64) -> Option<f64> {
 }
 
 /// One interval with its mean powers.
-fn interval(s: &Stretch, shares: &Shares, has_motors: bool, measured: &[Vec<(f64, f64)>]) -> IntervalOfDuty {
+fn interval(
+    t: &Transmission,
+    s: &Stretch,
+    shares: &Shares,
+    has_motors: bool,
+    measured: &[Vec<(f64, f64)>],
+) -> IntervalOfDuty {
     let heats = &s.heats;
     let power = |joule: f64| joule / heats.duration;
     let end = s.start + heats.duration;
@@ -235,6 +242,8 @@ fn interval(s: &Stretch, shares: &Shares, has_motors: bool, measured: &[Vec<(f64
         speed_rpm: s.speed * RPM,
         vehicle_speed_m_s: s.vehicle_speed,
         inclination_deg: None,
+        gear: t.states()[s.gear].name.clone(),
+        shift_j: s.shift.map(|shift| shift.heat),
         status: s.status,
         input_w: power(heats.input),
         output_w: power(heats.output),

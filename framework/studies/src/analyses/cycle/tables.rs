@@ -65,9 +65,8 @@ pub fn tabulate(
     };
     let ranges = Ranges::new(network, driven).ok_or_else(|| failed("no cycle has a torque and a speed".to_owned()))?;
     let first = &duties.list[0];
-    let own_gear = duties.ride(t, first).gear.to_owned();
-    let given = duties.list.iter().flat_map(|read| &read.intervals);
-    let gears = distinct(given.map(|interval| interval.given.gear.as_ref().unwrap_or(&own_gear)));
+    let stretches = driven.iter().flat_map(|driven| &driven.stretches);
+    let gears = distinct(stretches.map(|stretch| &t.states()[stretch.gear].name));
     let mut filled = 0;
     let mut all = Vec::new();
     for gear in &gears {
@@ -134,7 +133,7 @@ pub fn tabulate(
     };
     let values = count_values(&content);
     let content = Content::Network(content);
-    let rows = |read: &Read, driven: &Driven| rows(&content, network, read, driven, (&gears, &own_gear));
+    let rows = |read: &Read, driven: &Driven| rows(&content, network, read, driven, (t, &gears));
     let mut deviation = [0.0_f64; 2];
     for (read, driven) in duties.list.iter().zip(driven) {
         let of_cycle = deviation_of(&content, network, driven, &rows(read, driven));

@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::super::numbers::word;
 use super::super::{Head, Outcome};
+use super::best::BestGears;
 use super::export::{ExportData, ExportName};
 use super::points::MapPoints;
 use super::shown::ShownMap;
@@ -58,8 +59,11 @@ pub struct MapOutcome {
 pub struct MapOfSet {
     /// Name of the set.
     pub model_set: String,
-    /// Gear state.
+    /// Gear state; `best` if each point has its own.
     pub gear: String,
+    /// The gears of a map in the best gear of each point; absent otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub best_gears: Option<BestGears>,
     /// Bound values: resolved path to value.
     pub bound: serde_json::Map<String, Value>,
     /// Oil temperature; absent if each point has its own. [degC]

@@ -8,9 +8,10 @@ use serde_json::Value;
 use super::super::axes::grid_axes;
 use super::super::{Planner, Run, Stopped};
 use super::axes::Axes;
+use super::best;
 use super::entry::MapEntry;
 use crate::points::{Field, Given};
-use crate::study::{Envelope, Grid};
+use crate::study::{BEST, Envelope, Grid};
 
 /// The points of one map over a grid.
 pub struct Planned<'a> {
@@ -18,6 +19,8 @@ pub struct Planned<'a> {
     pub axes: Axes,
     /// Maps that differ only in their points share a transmission.
     pub run: Run<'a>,
+    /// All gears of a map in the best gear of each point; otherwise none.
+    pub gears: Vec<Run<'a>>,
 }
 
 /// One map for each gear, each set and each combination of bound values.
@@ -62,10 +65,27 @@ pub fn on_grid<'a>(
                 ));
             }
             for gear in grid.gear.selected(t) {
+                if gear == BEST {
+                    let at = format!("{path}.gear");
+                    if let Some(name) = entry.export.first() {
+                        let format = name.format().name();
+                        let message = format!("a `{format}` table has one gear, but the grid has `gear: best`");
+                        return Err(cx.wrong(&at, message, "name the gears of the grid"));
+                    }
+                    let gears = best::runs(cx, &at, &built, &field)?;
+                    maps.push(Planned {
+                        bound: bound.clone(),
+                        axes: axes.clone(),
+                        run: gears[0].clone(),
+                        gears,
+                    });
+                    continue;
+                }
                 maps.push(Planned {
                     bound: bound.clone(),
                     axes: axes.clone(),
                     run: Run::new(cx, &built, cx.field(t, &gear, field.clone()))?,
+                    gears: Vec::new(),
                 });
             }
         }

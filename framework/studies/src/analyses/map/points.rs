@@ -19,6 +19,9 @@ use crate::correction::{Corrected, ReadyCorrection};
 use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss};
 use crate::table::{Column, Table, Values};
 
+/// Column of the gear.
+const GEAR: usize = 1;
+
 /// Columns of a point from its torque to the first sum.
 const FIXED: usize = 11;
 
@@ -231,8 +234,8 @@ impl Taker<'_> {
 pub struct UndefinedLoss {
     /// Index of the point in its map.
     pub number: usize,
-    part: String,
-    reason: String,
+    pub(super) part: String,
+    pub(super) reason: String,
 }
 
 /// The points of one map: rows of the table of all maps.
@@ -246,11 +249,16 @@ pub struct MapPoints {
     rows: Range<usize>,
     undefined: Vec<UndefinedLoss>,
     limits: Vec<LimitColumn>,
+    /// Whether the gears of the points differ.
+    names_gears: bool,
 }
 
 /// A point.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct MapPoint<'a> {
+    /// Gear of the point; absent if all points of the map have the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gear: Option<&'a str>,
     /// Torque. [Nm]
     torque_nm: Option<f64>,
     /// Speed. [rpm]
@@ -327,7 +335,13 @@ impl MapPoints {
             parts,
             rows,
             undefined,
+            names_gears: false,
         }
+    }
+
+    /// The same, with the gear of each point if they differ.
+    pub(super) fn naming_gears(self, names_gears: bool) -> Self {
+        Self { names_gears, ..self }
     }
 
     fn number(&self, column: usize, row: usize) -> Option<f64> {
@@ -336,7 +350,11 @@ impl MapPoints {
     }
 
     fn text(&self, column: usize, row: usize) -> Option<&str> {
-        match &self.table.columns[self.first + column].values {
+        self.text_of_column(self.first + column, row)
+    }
+
+    fn text_of_column(&self, column: usize, row: usize) -> Option<&str> {
+        match &self.table.columns[column].values {
             Values::Texts(texts) => texts.get(row),
             Values::Numbers(_) => None,
         }
@@ -382,6 +400,7 @@ impl MapPoints {
             .binary_search_by_key(&row_of_chunk, |loss| loss.number)
             .ok();
         MapPoint {
+            gear: self.text_of_column(GEAR, row).filter(|_| self.names_gears),
             torque_nm: number(0),
             speed_rpm: number(1),
             oil_temperature_degc: number(2),

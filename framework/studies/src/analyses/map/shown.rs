@@ -16,6 +16,8 @@ pub const SHOWN: usize = 8;
 /// One point for figures and the terminal.
 #[derive(Debug, Clone)]
 pub struct ShownPoint {
+    /// Number of its gear state from zero, if the gears of the points differ.
+    pub gear: Option<usize>,
     /// Torque. \[Nm\]
     pub torque: f64,
     /// Speed. \[rad/s\]
@@ -39,6 +41,7 @@ pub struct ShownPoint {
 impl From<&PointResult> for ShownPoint {
     fn from(point: &PointResult) -> Self {
         Self {
+            gear: None,
             torque: point.torque,
             speed: point.speed,
             oil: point.oil,
@@ -80,6 +83,8 @@ pub struct Selection {
     whole: bool,
     /// Shown part of a grid; absent for a list, which is shown completely.
     lines: Option<Lines>,
+    /// Number of the gear state, if the gears of the points differ.
+    gear: Option<usize>,
 }
 
 /// For each torque and each speed of a grid its index among the shown ones.
@@ -182,6 +187,7 @@ impl Selection {
         };
         Self {
             whole,
+            gear: None,
             lines: grid.map(|axes| {
                 let [torques, speeds] = axes.shown();
                 Lines {
@@ -191,6 +197,11 @@ impl Selection {
                 }
             }),
         }
+    }
+
+    /// The same for points in a gear of several.
+    pub fn in_gear(self, gear: Option<usize>) -> Self {
+        Self { gear, ..self }
     }
 
     /// Data of some points.
@@ -205,7 +216,11 @@ impl Selection {
                 picked.values.push((place, (&**point).into()));
             }
             if let Some(shown) = self.place(place) {
-                picked.shown.push((shown, (&**point).into()));
+                let point = ShownPoint {
+                    gear: self.gear,
+                    ..(&**point).into()
+                };
+                picked.shown.push((shown, point));
             }
         }
         picked

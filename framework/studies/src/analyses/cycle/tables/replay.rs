@@ -5,6 +5,7 @@ use gearloss_fmu::content::Content;
 use gearloss_fmu::model::Model;
 use gearloss_fmu::variables::{Causality, Slot, Use};
 use gearloss_framework::thermal::network::Network;
+use gearloss_framework::transmission::Transmission;
 
 use crate::analyses::duties::Read;
 use crate::points::Driven;
@@ -18,7 +19,7 @@ pub fn rows(
     network: &Network,
     read: &Read,
     driven: &Driven,
-    (gears, own_gear): (&[&String], &String),
+    (t, gears): (&Transmission, &[&String]),
 ) -> Vec<Vec<f64>> {
     let slots: Vec<Slot> = Model::new(content.clone()).slots().to_vec();
     let numbers: Vec<_> = network.exchanger_numbers().collect();
@@ -40,7 +41,7 @@ pub fn rows(
                 .coolant_temperature
                 .unwrap_or(numbers[i as usize].coolant_temperature),
             Use::Gear => {
-                let gear = given.gear.as_ref().unwrap_or(own_gear);
+                let gear = &t.states()[stretch.gear].name;
                 gears
                     .iter()
                     .position(|known| *known == gear)

@@ -1,0 +1,155 @@
+//! Maps in the best gear of each point: every gear is solved at every point, then each point in the gear that draws least.
+
+use std::sync::Arc;
+
+use gearloss_framework::document::Diagnostic;
+use gearloss_framework::thermal::network::Network;
+use gearloss_framework::transmission::Transmission;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::super::{Built, Engine, Planner, Run, Stopped};
+use crate::analyses::cycle::Criterion;
+use crate::codes;
+use crate::points::{Field, Numbered, PointResult, Points};
+
+/// The gears of a map in the best gear of each point.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct BestGears {
+    /// What is compared.
+    pub criterion: Criterion,
+    /// Each gear with its share, in the order of the gearbox.
+    pub gears: Vec<PointsInGear>,
+}
+
+/// Points in a gear.
+#[derive(Debug, Clone, Serialize, JsonSchema)]
+pub struct PointsInGear {
+    /// The gear.
+    pub gear: String,
+    /// Number of points. [-]
+    pub points: usize,
+    /// Share of the points. [-]
+    pub share: f64,
+}
+
+/// One run for each gear that connects the ports and turns the given one in the direction of the first. `path` is the place of the gear.
+pub fn runs<'a>(cx: &Planner<'a>, path: &str, built: &Arc<Built<'a>>, field: &Field) -> Result<Vec<Run<'a>>, Stopped> {
+    let t = &built.transmission;
+    let reference = &t.ports()[t.reference_port()];
+    let (mut runs, mut first) = (Vec::new(), 0.0);
+    for state in t.states() {
+        let points = cx.field(t, &state.name, field.clone());
+        if points.speed_at.first() == Some(&reference.name) || points.torque_at.first() == Some(&reference.name) {
+            let message = format!(
+                "torque or speed is given at `{}`, so that the gears of a point do not drive the same load",
+                reference.name
+            );
+            let help = "write `conditions: { torque_at: output, speed_at: output }`, or name the gears of the map";
+            return Err(cx.wrong_as(codes::GEAR_CHOICE, path, message, help));
+        }
+        let Ok(case) = points.case(t) else { continue };
+        let ratio = t.speeds(&case, &vec![1.0; case.speed_ports.len()])[reference.member];
+        if !ratio.is_finite() || ratio == 0.0 || ratio * first < 0.0 {
+            continue;
+        }
+        if runs.is_empty() {
+            first = ratio;
+        }
+        runs.push(Run::new(cx, built, points)?);
+    }
+    if runs.is_empty() {
+        let error = Diagnostic::error(path, "no gear of the gearbox connects the ports");
+        let help = "describe such a state under `gear_states`, or name the gears of the map";
+        return Err(cx.found(vec![error.help(help).code(codes::GEAR_CHOICE)]));
+    }
+    Ok(runs)
+}
+
+/// The runs with the points at which each gear draws least.
+pub fn chosen<'a>(engine: &Engine<'_>, runs: &[Run<'a>]) -> Result<Vec<Run<'a>>, Stopped> {
+    let mut least: Vec<(f64, usize)> = Vec::new();
+    for (gear, run) in runs.iter().enumerate() {
+        least.resize(run.points.field.len(), (f64::INFINITY, 0));
+        let t = &run.built.transmission;
+        let make = |points: &mut Numbered<'_>| -> Vec<(usize, f64)> {
+            points.iter().map(|(number, point)| (*number, cost(t, point))).collect()
+        };
+        engine.solve_pieces(run, &make, &mut |piece| {
+            drop(piece.map(|costs| {
+                for (number, cost) in costs {
+                    if cost < least[number].0 {
+                        least[number] = (cost, gear);
+                    }
+                }
+            }));
+            Ok(())
+        })?;
+    }
+    let own = |(gear, run): (usize, &Run<'a>)| {
+        let field = &run.points.field;
+        let numbers = (0..field.len()).filter(|number| least[*number].1 == gear);
+        let places: Vec<u32> = numbers.map(|number| field.place(number) as u32).collect();
+        let [torques, speeds] = field.axes()?;
+        (!places.is_empty()).then(|| Run {
+            points: Points {
+                field: Field::Part {
+                    torques: torques.to_vec(),
+                    speeds: speeds.to_vec(),
+                    places: places.into(),
+                },
+                ..run.points.clone()
+            },
+            ..run.clone()
+        })
+    };
+    Ok(runs.iter().enumerate().filter_map(own).collect())
+}
+
+/// The gears of a map.
+pub fn gears(runs: &[Run<'_>]) -> Option<BestGears> {
+    let total: usize = runs.iter().map(|run| run.points.field.len()).sum();
+    let of = |run: &Run<'_>| PointsInGear {
+        gear: run.points.gear.clone(),
+        points: run.points.field.len(),
+        share: run.points.field.len() as f64 / total as f64,
+    };
+    let t = &runs.first()?.built.transmission;
+    Some(BestGears {
+        criterion: if motors(t) > 0 {
+            Criterion::MachinePower
+        } else {
+            Criterion::GearboxLoss
+        },
+        gears: runs.iter().map(of).collect(),
+    })
+}
+
+fn motors(t: &Transmission) -> usize {
+    t.network().map_or(0, |network| network.motors().len())
+}
+
+/// What a point draws: the power of the machines of a thermal network, or the loss of the gearbox; infinite without a solution. \[W\]
+fn cost(t: &Transmission, point: &PointResult) -> f64 {
+    let Some(loss) = point.loss.filter(|loss| loss.is_finite()) else {
+        return f64::INFINITY;
+    };
+    let network = t.network().filter(|network| network.names().len() == point.nodes.len());
+    let Some(network) = network.filter(|_| motors(t) > 0) else {
+        return loss;
+    };
+    let power = loss - point.torque * point.torque_speed;
+    power + motor_losses(t, network, point, power)
+}
+
+/// Losses of the motors at the reference port, which transmits a power. \[W\]
+fn motor_losses(t: &Transmission, network: &Network, point: &PointResult, power: f64) -> f64 {
+    let (reference, speed) = (t.ports()[t.reference_port()].member, point.reference_speed);
+    let torque = if speed == 0.0 { 0.0 } else { power / speed };
+    let of = |motor: usize| {
+        let (member, [_, stator]) = network.motor_nodes(motor);
+        let losses = network.motor_loss(motor, speed, torque, point.nodes[stator]);
+        if member == reference { losses[0] + losses[1] } else { 0.0 }
+    };
+    (0..network.motors().len()).map(of).sum()
+}
