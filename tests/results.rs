@@ -25,10 +25,19 @@ const STUDIES: [&str; 4] = [
 const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
 
 /// Objects whose keys are the user's, or a model's.
-const OPEN: [&str; 6] = ["bound", "set", "terms_w", "value", "model", "limit_values"];
+const OPEN: [&str; 7] = [
+    "bound",
+    "set",
+    "terms_w",
+    "value",
+    "model",
+    "limit_values",
+    "load_sharing",
+];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 21] = [
+const OPTIONAL: [&str; 22] = [
+    "mesh_load",
     "crossed_stages",
     "lengthwise_sliding_m_s",
     "data",

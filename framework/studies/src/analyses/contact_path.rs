@@ -107,6 +107,16 @@ pub struct ContactPath {
     pub mesh_load: Option<MeshUnderLoad>,
 }
 
+impl ContactPath {
+    fn plane(&self) -> impl Iterator<Item = &PlaceOnPlane> {
+        self.mesh_load.iter().flat_map(|load| &load.plane)
+    }
+
+    fn phases(&self) -> impl Iterator<Item = &PhaseOfMesh> {
+        self.mesh_load.iter().flat_map(|load| &load.phases)
+    }
+}
+
 /// A mesh in thin slices under its load, over one base pitch.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct MeshUnderLoad {
@@ -488,29 +498,21 @@ impl Outcome for ContactPathOutcome {
             .text("model_set", "Model set", |(path, _)| &path.model_set)
             .text("mesh", "Mesh", |(path, _)| &path.mesh)
             .fields("from_pitch_point_mm load_share sliding_speed_m_s sum_speed_m_s radius_mm hertz_pressure_gpa film_um mu sliding_loss_w", |(_, at)| at);
-        let of_plane = |path| {
-            path.mesh_load
-                .iter()
-                .flat_map(|load| load.plane.iter())
-                .collect::<Vec<_>>()
-        };
-        let plane = Table::of_each(format!("{}-plane", self.head.analysis), &self.paths, of_plane)
+        let plane = Table::of_each(format!("{}-plane", self.head.analysis), &self.paths, ContactPath::plane)
             .text("model_set", "Model set", |(path, _)| &path.model_set)
             .text("mesh", "Mesh", |(path, _)| &path.mesh)
             .fields(
                 "plane_from_pitch_point_mm face_mm line_load_n_mm plane_pressure_gpa",
-                |(_, at)| *at,
+                |(_, at)| at,
             );
-        let of_phases = |path| {
-            path.mesh_load
-                .iter()
-                .flat_map(|load| load.phases.iter())
-                .collect::<Vec<_>>()
-        };
-        let phases = Table::of_each(format!("{}-phases", self.head.analysis), &self.paths, of_phases)
-            .text("model_set", "Model set", |(path, _)| &path.model_set)
-            .text("mesh", "Mesh", |(path, _)| &path.mesh)
-            .fields("base_pitches transmission_error_um", |(_, at)| *at);
+        let phases = Table::of_each(
+            format!("{}-phases", self.head.analysis),
+            &self.paths,
+            ContactPath::phases,
+        )
+        .text("model_set", "Model set", |(path, _)| &path.model_set)
+        .text("mesh", "Mesh", |(path, _)| &path.mesh)
+        .fields("base_pitches transmission_error_um", |(_, at)| at);
         let mut tables = vec![table.finish()];
         if self.paths.iter().any(|path| path.mesh_load.is_some()) {
             tables.extend([plane.finish(), phases.finish()]);

@@ -70,6 +70,8 @@ pub struct Stretch {
     pub temperatures: Vec<f64>,
     /// State of the transmission.
     pub status: Status,
+    /// Inclination of the oil by grade and acceleration. \[rad\]
+    pub inclination: f64,
     /// Number of the gear state.
     pub gear: usize,
     /// The shift at its start, if gears are chosen.
@@ -446,6 +448,7 @@ impl Driven {
             wheels,
             temperatures: passed.temperatures,
             status: passed.status,
+            inclination: planned.interval.inclination,
             gear: planned.chosen.state,
             shift,
             beyond_limits: planned.chosen.beyond,

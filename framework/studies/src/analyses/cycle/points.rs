@@ -52,7 +52,7 @@ impl<'a> Points<'a> {
                 speed: stretch.speed,
                 temperatures: stretch.temperatures.clone(),
                 duration: stretch.heats.duration,
-                inclination: interval.inclination,
+                inclination: stretch.inclination,
             })
             .collect()
     }

@@ -30,17 +30,8 @@ pub fn duty(
     let energies = shares.sums(&driven.total.parts);
     let nodes = nodes(t, driven);
     let measured: Vec<Vec<(f64, f64)>> = nodes.iter().map(|node| measured(read, node)).collect();
-    let inclinations: Vec<f64> = read
-        .intervals
-        .iter()
-        .map(|interval| interval.inclination.to_degrees())
-        .filter(|_| t.travels())
-        .collect();
-    let series = |(i, s): (usize, &Stretch)| IntervalOfDuty {
-        inclination_deg: inclinations.get(i).copied(),
-        ..interval(t, s, shares, energy.motors_j.is_some(), &measured)
-    };
-    let series = driven.stretches.iter().enumerate().map(series).collect();
+    let series = |s: &Stretch| interval(t, s, shares, energy.motors_j.is_some(), &measured);
+    let series = driven.stretches.iter().map(series).collect();
     DutyOfSet {
         model_set: b.name.clone(),
         cycle: read.name.clone(),
@@ -56,10 +47,9 @@ pub fn duty(
         heat: heat(t, driven),
         motors: motors(t, driven),
         motors_beyond_map: driven.total.beyond_map,
-        inclination_deg: (!inclinations.is_empty()).then(|| {
-            let simulated = &inclinations[..driven.stretches.len()];
-            let least = simulated.iter().copied().fold(0.0, f64::min);
-            [least, simulated.iter().copied().fold(0.0, f64::max)]
+        inclination_deg: t.travels().then(|| {
+            let all = driven.stretches.iter().map(|s| s.inclination.to_degrees());
+            all.fold([0.0; 2], |[low, high]: [f64; 2], at| [low.min(at), high.max(at)])
         }),
         nodes: nodes
             .into_iter()
@@ -241,7 +231,7 @@ fn interval(
         torque_nm: s.torque,
         speed_rpm: s.speed * RPM,
         vehicle_speed_m_s: s.vehicle_speed,
-        inclination_deg: None,
+        inclination_deg: t.travels().then(|| s.inclination.to_degrees()),
         gear: t.states()[s.gear].name.clone(),
         shift_j: s.shift.map(|shift| shift.heat),
         status: s.status,
