@@ -14,7 +14,7 @@ use gearloss_framework::thermal::network::{March, Moment, Passed, Scheme, Stage,
 use gearloss_framework::transmission::Transmission;
 use gearloss_plugins::tooth_friction::ehl_mixed::EhlMixed;
 use gearloss_studies::duty::{CycleEntry, Duty, FileCycleEntry, Interval, ShippedCycleEntry, Vehicle, VehicleEntry};
-use gearloss_studies::points::{Driven, OilTemperature, Ride, Stretch, drive};
+use gearloss_studies::points::{Driven, OilTemperature, Ride, Stretch, can_drive, drive};
 use serde_json::json;
 
 const UNIT: &str = "examples/electric-drive-unit/gearbox.yaml";
@@ -291,6 +291,100 @@ fn a_wltc_takes_few_evaluations_and_few_passes() {
     // With the bodies known there is one way along each path, and some two passes at each of its places.
     assert_eq!((sum.0 as usize) * laws[0].1.len(), sum.2);
     assert_eq!(sum, (312, 18019, 9984));
+}
+
+/// Acceleration and grade incline the oil of a housing that says how it travels: each interval has the loss of a point with its inclination,
+/// and on a level road at constant speed nothing changes.
+#[test]
+fn a_cycle_inclines_the_oil_of_a_housing_that_travels() {
+    let language = language();
+    let gearbox = Gearbox::read(&language, &file(UNIT)).unwrap();
+    let choice = Choice {
+        overrides: vec![("housing.travel".to_owned(), json!("+y"))],
+        ..Choice::default()
+    };
+    let (level, travels) = (unit(&language), gearbox.transmission(&language, &choice).unwrap());
+    assert!(travels.travels() && !level.travels());
+    let read = |csv: &str| {
+        let entry = FileCycleEntry::named("drive.csv");
+        let duty = CycleEntry::File(Box::new(entry));
+        duty.read(language.registry(), |_| Ok(csv.as_bytes().to_vec())).unwrap()
+    };
+    let both = |duty: &Duty| [&level, &travels].map(|t| driven(t, duty, Scheme::Lagged, SECOND));
+    let flat = read("time [s],vehicle_speed [km/h],grade [-]\n0,50,0\n1,50,0\n2,50,0\n");
+    let [without, with] = both(&flat);
+    assert_eq!(without.total.parts, with.total.parts);
+    let hills = read("time [s],vehicle_speed [km/h],grade [-]\n0,50,0\n1,60,0\n2,60,0.1\n3,60,0.1\n4,50,0.1\n");
+    let intervals = hills.intervals(Some(&vehicle())).unwrap();
+    let acceleration = 10.0 / 3.6;
+    let expected = [
+        (acceleration / 9.80665).atan(),
+        0.05_f64.atan(),
+        0.1_f64.atan(),
+        (0.1 - acceleration / 9.80665 * 0.1_f64.hypot(1.0)).atan(),
+    ];
+    for (interval, expected) in intervals.iter().zip(expected) {
+        assert!(
+            (interval.inclination - expected).abs() < 1e-12,
+            "{interval:?} {expected}"
+        );
+    }
+    let [without, with] = both(&hills);
+    let drag = |t: &Transmission, driven: &Driven, i: usize| {
+        let parts = t.parts().iter().zip(&driven.stretches[i].heats.parts);
+        let drag = parts
+            .filter(|(part, _)| part.mechanism == "gear_drag")
+            .map(|(_, joule)| joule);
+        drag.sum::<f64>()
+    };
+    let changes: Vec<f64> = (0..4)
+        .map(|i| drag(&travels, &with, i) / drag(&level, &without, i) - 1.0)
+        .collect();
+    // Uphill and braking move the oil to opposite sides of the gears.
+    assert!(changes[0].abs() > 0.01 && changes[0] * changes[3] < 0.0, "{changes:?}");
+    let case = travels.case(&travels.states()[0].name, &["input"], &["input"]).unwrap();
+    let mut scratch = travels.scratch(&case);
+    for (i, (stretch, interval)) in with.stretches.iter().zip(&intervals).enumerate() {
+        let before = if i == 0 {
+            &with.start
+        } else {
+            &with.stretches[i - 1].temperatures
+        };
+        let point = Point {
+            speeds: &[stretch.speed],
+            torques: &[stretch.torque],
+            inclination: interval.inclination,
+            ..Point::default()
+        };
+        let solution = travels.evaluate(&case, &point, before, &mut scratch);
+        let parts = solution.parts().filter(|(part, _)| part.mechanism == "gear_drag");
+        let watts: f64 = parts.map(|(_, loss)| loss.watts()).sum();
+        let expected = drag(&travels, &with, i) / interval.duration;
+        assert!((watts / expected - 1.0).abs() < 1e-9, "{i}: {watts} {expected}");
+    }
+    // An inclination that no vehicle has is an error of the cycle.
+    let steep = read("time [s],vehicle_speed [km/h],grade [-]\n0,50,2\n1,50,2\n2,50,2\n");
+    let intervals = steep.intervals(Some(&vehicle())).unwrap();
+    let vehicle = vehicle();
+    let checked = |t: &Transmission| {
+        let ride = Ride {
+            intervals: &intervals,
+            port: "input",
+            vehicle: Some(&vehicle),
+            gear: &t.states()[0].name,
+            oil: OilTemperature::Network,
+            spectrum: false,
+            start: None,
+            ambient: None,
+            scheme: Scheme::Implicit,
+            step: SECOND,
+            flow: PowerFlow::Real,
+        };
+        can_drive(t, &ride)
+    };
+    assert!(checked(&level).is_ok());
+    let found = checked(&travels).unwrap_err();
+    assert!(found[0].message.contains("63.4 deg at 0 s"), "{found:?}");
 }
 
 /// Runs a study of one duty with the drive unit; what it says to standard error.

@@ -29,13 +29,19 @@ const GEAR: Disc = Disc {
     radius: 90.0 * MM,
     width: 30.0 * MM,
     slope: 1.0,
+    rise: 0.0,
 };
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
 fn space(discs: &[Disc], up: [f64; 3]) -> Space {
     let slope = 1.0 / up[1].hypot(up[2]);
-    let discs = discs.iter().map(|disc| Disc { slope, ..*disc }).collect();
+    let inclined = |disc: &Disc| Disc {
+        slope,
+        rise: up[0] * disc.width * slope,
+        ..*disc
+    };
+    let discs = discs.iter().map(inclined).collect();
     Space::new(&[case_a()], discs, up, 0.0).unwrap()
 }
 
@@ -105,6 +111,7 @@ fn travelling(direction: [f64; 3], discs: &[Disc]) -> Inclinations {
             let place = |disc: &Disc| up[1] * 0.12 + up[2] * disc.height;
             let turned = |disc: &Disc| Disc {
                 slope,
+                rise: up[0] * disc.width * slope,
                 height: place(disc),
                 ..*disc
             };
@@ -112,6 +119,36 @@ fn travelling(direction: [f64; 3], discs: &[Disc]) -> Inclinations {
         })
         .collect();
     Inclinations::new(travel, &[case_a()], &at, [0.0, 0.1]).unwrap()
+}
+
+/// A disc on an inclined axis displaces the sum of thin ones.
+#[test]
+fn inclined_discs_are_the_sum_of_thin_ones() {
+    for rise in [1e-9, 3e-6, 0.004, -0.03, 0.25] {
+        let whole = Disc {
+            rise,
+            slope: 1.2,
+            ..GEAR
+        };
+        for level in [0.0, 15.0, 60.0, 130.0, 215.0, 300.0] {
+            let level = level * MM;
+            let count = 2000;
+            let thin = (0..count).map(|i| {
+                let place = (f64::from(i) + 0.5) / f64::from(count) - 0.5;
+                let thin = Disc {
+                    height: whole.height - place * rise / whole.slope,
+                    width: whole.width / f64::from(count),
+                    rise: 0.0,
+                    ..whole
+                };
+                thin.below(level)
+            });
+            let sum = thin.fold([0.0; 2], |sum, own| [sum[0] + own[0], sum[1] + own[1]]);
+            let [volume, area] = whole.below(level);
+            assert!((volume - sum[0]).abs() < 1e-9, "{rise} {level}: {volume} {}", sum[0]);
+            assert!((area - sum[1]).abs() < 2e-5, "{rise} {level}: {area} {}", sum[1]);
+        }
+    }
 }
 
 #[test]

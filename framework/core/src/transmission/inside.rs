@@ -266,7 +266,8 @@ fn discs(
     sections: &[Outline],
     (up, datum): ([f64; 3], f64),
 ) -> Vec<Disc> {
-    let disc = |axis: &Axis, at: f64, radius: f64, width: f64| {
+    // Width is that of all copies or of the solid share, extent that along the axis.
+    let disc_of = |axis: &Axis, at: f64, radius: f64, [width, extent]: [f64; 2]| {
         let [x, y, z] = axis.point(at);
         let slope = if axis.is_along_x() {
             1.0 / up[1].hypot(up[2])
@@ -280,8 +281,10 @@ fn discs(
             radius,
             width,
             slope,
+            rise: if axis.is_along_x() { up[0] * extent * slope } else { 0.0 },
         }
     };
+    let disc = |axis: &Axis, at: f64, radius: f64, width: f64| disc_of(axis, at, radius, [width; 2]);
     let fixed = |member: usize| axes[member].filter(|(_, orbit)| *orbit == 0.0).map(|(axis, _)| axis);
     let wheels = gears.iter().filter(|gear| !gear.ring && gear.diameters[0] > 0.0);
     let wheels: Vec<(Disc, Axis, [f64; 2])> = wheels
@@ -331,7 +334,7 @@ fn discs(
                 ..axis
             };
             let width = gear.facewidth * count / POSITIONS as f64;
-            disc(&orbiting, gear.at, 0.5 * gear.diameters[0], width)
+            disc_of(&orbiting, gear.at, 0.5 * gear.diameters[0], [width, gear.facewidth])
         }));
     }
     let bearings = document["bearings"].as_object().into_iter().flatten();
@@ -350,7 +353,8 @@ fn discs(
             if solid > 0.0 && outside > bore {
                 // A ring is the difference of two discs.
                 let ring = [(outside, solid), (bore, -solid)];
-                discs.extend(ring.map(|(diameter, width)| disc(&axis, at, 0.5 * diameter, width)));
+                let extent = range[1] - range[0];
+                discs.extend(ring.map(|(diameter, width)| disc_of(&axis, at, 0.5 * diameter, [width, extent])));
             }
         }
     }

@@ -572,15 +572,8 @@ fn seated_pocket(
         );
     }
     let path_of_window = format!("{path}.window");
-    let window = match window.map(|window| seated_window(&window, around, oils)) {
-        Some(Ok(window)) => Some(window),
-        Some(Err((message, help))) => {
-            let error = Diagnostic::error(path_of_window, message).code(codes::WINDOW);
-            found.push(error.help(help));
-            None
-        }
-        None => None,
-    };
+    let window = window.map(|window| seated_window(&window, &path_of_window, around, oils));
+    let window = window.transpose().map_err(|error| found.push(error)).ok().flatten();
     if feeds.is_empty() && inflow == 0.0 && caught.is_none() && pocket.entry.window.is_none() {
         warnings.push(
             Diagnostic::warning(path, "no oil flows into the pocket, so it stays empty").help(format!(
@@ -602,34 +595,33 @@ fn seated_pocket(
     })
 }
 
-/// A window beside the gear that throws oil through it.
+/// A window beside the gear that throws oil through it; its path.
 fn seated_window(
     entry: &WindowEntry,
+    path: &str,
     around: &Around<'_>,
     oils: &OilNumbers<'_>,
-) -> Result<Window, (String, &'static str)> {
-    let gear = around.gears.iter().position(|gear| gear.id == entry.gear);
-    let Some(number) = gear else {
-        return Err((
-            format!("no gear is called `{}`", entry.gear),
-            "name the gear that throws the oil",
-        ));
+) -> Result<Window, Diagnostic> {
+    let wrong = |message: String, help: &str| Diagnostic::error(path, message).code(codes::WINDOW).help(help);
+    let ids: Vec<&str> = around.gears.iter().map(|gear| gear.id.as_str()).collect();
+    let Some(number) = ids.iter().position(|id| *id == entry.gear) else {
+        return Err(dangling(&format!("{path}.gear"), "gear", &entry.gear, &ids));
     };
     let gear = &around.gears[number];
     if entry.bottom >= entry.top || entry.from >= entry.to {
-        return Err((
+        return Err(wrong(
             "the window has no height or no length".to_owned(),
             "state `bottom` below `top` and `from` before `to`",
         ));
     }
     let Some(axis) = oils.stationary_axis_along_x(gear.member) else {
-        return Err((
+        return Err(wrong(
             format!("`{}` has no stationary axis along x", gear.id),
             "name another gear; for this one no law is known",
         ));
     };
     let Some(lift) = oils.sump.as_ref().and_then(|sump| sump.lift_of(number)) else {
-        return Err((
+        return Err(wrong(
             format!(
                 "how much oil `{}` lifts is not known: it has no churning law in a known oil space",
                 gear.id
@@ -648,7 +640,7 @@ fn seated_window(
         gear: [0.5 * tip, 0.5 * (tip - root), gear.facewidth],
     };
     if window.wall.abs() <= 0.5 * tip {
-        return Err((
+        return Err(wrong(
             format!(
                 "the wall is {:.1} mm from the axis of `{}`, whose tip circle has a radius of {:.1} mm",
                 1e3 * window.wall.abs(),
