@@ -64,6 +64,7 @@ use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::worm_mesh::{AtRest as WormAtRest, WormMesh, WormPart};
 use crate::registry::{Instance, Placed};
+use crate::machine::Machine;
 use crate::thermal::Housing;
 use crate::thermal::network::Network;
 
@@ -291,6 +292,7 @@ pub struct Transmission {
     /// Design torque and speed. \[Nm and rad/s\]
     pub rating: Option<RatingEntry>,
     pub(crate) housing: Housing,
+    pub(crate) machines: Vec<Arc<Machine>>,
     pub(crate) network: Option<Network>,
 }
 
@@ -328,6 +330,10 @@ impl Transmission {
     /// Gear states, including neutral.
     pub fn states(&self) -> &[GearState] {
         &self.states
+    }
+    /// Electric machines at ports: those of `machines`, and the motors of the thermal network.
+    pub fn machines(&self) -> &[Arc<Machine>] {
+        &self.machines
     }
     /// Gears with their geometry.
     pub fn gears(&self) -> &[GearSeat] {

@@ -347,6 +347,11 @@ impl Block<'_> {
         self.s.passes[point] as usize
     }
 
+    /// Torques that ports apply to a member by number. \[Nm\]
+    pub fn port_torques(&self, member: usize) -> &Lane {
+        &self.s.work.ports[member]
+    }
+
     /// Speeds of a member by number. \[rad/s\]
     pub fn speeds(&self, member: usize) -> &Lane {
         &self.s.models.conditions.speeds[member]
