@@ -7,11 +7,13 @@ mod build;
 pub mod entry;
 mod envelope;
 mod inverter;
+mod state;
 
 use std::sync::Arc;
 
 pub use entry::{BeyondEntry, Contained, MachineEntry};
 pub use envelope::{Envelope, Reached};
+pub use state::{MachineEnergy, MachineState};
 
 pub(crate) use build::{Around, machines, motors};
 use inverter::Inverter;

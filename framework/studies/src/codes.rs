@@ -28,6 +28,12 @@ gearloss_framework::document::codes! {
     OBJECTIVE = "E0521", "invalid objective of a search",
         cause: "`minimise` names a quantity that the cycles do not have, such as the consumption of a vehicle without a battery.",
         help: "Describe the battery and the machine, or minimise the mean loss.";
+    BATTERY = "E0540", "contradictory battery",
+        cause: "A battery states neither a constant efficiency nor its cells, or both, or values of its cells contradict each other.",
+        help: "State `efficiency`, or `cells` with voltage and resistance, and correct the key that the message names.";
+    BEYOND_ENVELOPE = "E0541", "cycle beyond the envelope of a machine",
+        cause: "A cycle asks for more torque or speed than a machine has whose envelope says `beyond: refuse`.",
+        help: "Write `beyond: limit`, correct the envelope, or choose a larger machine.";
     DATA = "E0601", "invalid measured data",
         cause: "A data file lacks a column, has cells that cannot be read, or has units or accuracies that contradict the study.",
         help: "Correct the file, or its description under `measurements`.";

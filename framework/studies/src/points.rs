@@ -11,6 +11,7 @@ mod rows;
 mod solve;
 mod sums;
 mod temperature;
+mod unit;
 
 pub use cycle::{Driven, Ride, Stretch, can_drive, drive};
 pub use derivatives::{Derivative, Derivatives, Derived, Method, Variable};
@@ -25,3 +26,4 @@ pub use prepared::{PreparedPoint, SolvedPoint};
 pub use rows::{OnRig, Rows, SolvedRows};
 pub use sums::{SUMS, Sums, sum_of, sums};
 pub use temperature::{Found, OilTemperature};
+pub use unit::{UnitColumn, UnitPoint};

@@ -347,7 +347,7 @@ impl Block<'_> {
         self.s.passes[point] as usize
     }
 
-    /// Torques that ports apply to a member by number. \[Nm\]
+    /// Torques that a port of a member applies. \[Nm\]
     pub fn port_torques(&self, member: usize) -> &Lane {
         &self.s.work.ports[member]
     }

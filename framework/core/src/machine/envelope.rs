@@ -3,6 +3,8 @@
 //! The base speed is proportional to the voltage of the DC link if the resistance is neglected, so that T_max(n, U) =
 //! T_max(n U_ref/U, U_ref).
 
+use serde::{Deserialize, Serialize};
+
 use super::entry::{BeyondEntry, EnvelopeEntry, ReachEntry};
 
 /// The envelope of a machine; SI.
@@ -19,7 +21,7 @@ pub struct Envelope {
 }
 
 /// What a torque reaches.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
 pub enum Reached {
     /// At most the continuous torque.
     #[default]

@@ -233,6 +233,7 @@ mod tests {
             sums: [0.0; 6],
             parts: Vec::new(),
             terms: Vec::new(),
+            machines: Vec::new(),
             outside: false,
             limits: Vec::new(),
             beyond: false,
