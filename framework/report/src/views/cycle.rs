@@ -126,13 +126,19 @@ fn consumption_text(consumption: &Consumption, page: &mut Page) {
             ", without losses of the motor"
         }
     ));
+    let inverter = if consumption.inverter_kwh_per_100_km > 0.0 {
+        format!(", inverter {}", short(consumption.inverter_kwh_per_100_km))
+    } else {
+        String::new()
+    };
     let share = |of: Option<f64>| of.map_or_else(|| "-".to_owned(), |of| format!("{} %", short(100.0 * of)));
     page.line(format!(
-        "  of it in kWh/100 km: vehicle {}, transmission {}, machine {}, brakes {}, auxiliaries {}, battery {}; system efficiency {}, \
+        "  of it in kWh/100 km: vehicle {}, transmission {}, machine {}{}, brakes {}, auxiliaries {}, battery {}; system efficiency {}, \
          recuperated {} of the braking energy",
         short(consumption.wheels_kwh_per_100_km),
         short(consumption.transmission_kwh_per_100_km),
         short(consumption.machine_kwh_per_100_km),
+        inverter,
         short(consumption.brakes_kwh_per_100_km),
         short(consumption.auxiliaries_kwh_per_100_km),
         short(consumption.battery_kwh_per_100_km),
@@ -141,6 +147,20 @@ fn consumption_text(consumption: &Consumption, page: &mut Page) {
     ));
     if consumption.motor_beyond_map {
         page.line("  note: the motor was outside its map, the loss at the edge of the map is used");
+    }
+    if consumption.machine_limited > 0 {
+        page.line(format!(
+            "  limited: the machine is at its envelope in {} intervals; the vehicle lacks {} kWh/100 km at its wheels",
+            consumption.machine_limited,
+            short(consumption.lacking_kwh_per_100_km)
+        ));
+    }
+    if consumption.battery_limited > 0 {
+        page.line(format!(
+            "  limited: the battery is at its limit in {} intervals and lacks {} kWh/100 km",
+            consumption.battery_limited,
+            short(consumption.shortfall_kwh_per_100_km)
+        ));
     }
     let Some(range) = consumption.range_km else {
         page.line("  no range: more energy is recuperated than drawn");

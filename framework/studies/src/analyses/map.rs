@@ -18,7 +18,7 @@ use gearloss_framework::loss::Extent;
 use serde_json::Value;
 
 pub use axes::Axes;
-pub use entry::MapEntry;
+pub use entry::{MapEntry, MapOf};
 pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, Refusal};
 pub use outcome::{MapOfSet, MapOutcome, Mark, NotesOfSet, PartModel, SumMeaning};
 pub use points::MapPoints;
@@ -32,6 +32,7 @@ use super::limits::at_points::LimitColumn;
 use super::rows::RowsPlan;
 use super::units::libraries;
 use super::{Analysis, Built, Engine, Plan, Planner, Run, Stopped, Work};
+use crate::codes;
 use crate::distinct::distinct;
 use crate::measured::{Measured, Row};
 use crate::points::{
@@ -108,6 +109,7 @@ impl Analysis for MapEntry {
                 return Err(cx.wrong(&path, "a map needs either `grid` or `points`", help));
             }
         };
+        self.check_machines(cx, &points)?;
         // The libraries of FMUs, if one is exported.
         let is_needed = self.export.iter().any(|name| name.format().has_library());
         Ok(MapPlan {
@@ -138,6 +140,7 @@ impl Analysis for MapEntry {
         };
         Ok(MapOutcome {
             head: engine.head(&built),
+            of: self.of,
             envelope: grid.transpose()?.and_then(|grid| grid.envelope.clone()),
             notes_of_sets: notes_of_sets(&maps),
             maps: maps.into_iter().map(|map| map.outcome(&rows)).collect(),
@@ -157,6 +160,23 @@ impl Analysis for MapEntry {
 }
 
 impl MapEntry {
+    /// Refuses a map of machines that a gearbox does not have.
+    fn check_machines(&self, cx: &Planner<'_>, points: &PointsOfMap<'_>) -> Result<(), Stopped> {
+        let all: Vec<&Run<'_>> = match points {
+            PointsOfMap::Grid(planned) => planned.iter().map(|plan| &plan.run).collect(),
+            PointsOfMap::List(listed) => listed.rows.runs(),
+        };
+        let without = |run: &&Run<'_>| !cx.has_machines(&run.built.transmission);
+        match all.into_iter().find(without) {
+            Some(run) if !self.of.is_gearbox() => {
+                let message = format!("`{}` has no machine", run.built.name);
+                let help = "describe it under `machines` of the gearbox, or delete `of`";
+                Err(cx.wrong_as(codes::NO_MACHINE, &format!("{}.of", cx.path()), message, help))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The maps over the grid.
     fn over_grid<'a>(
         &self,
@@ -172,7 +192,7 @@ impl MapEntry {
         let mut maps = engine.parts(planned, |plan| {
             let mut map = Map::new(&plan.run, &plan.bound, plan.run.points.oil, &rows);
             map.shown = ShownMap::new(Some(&plan.axes), whole);
-            let selection = Selection::new(Some(&plan.axes), whole);
+            let selection = Selection::new(self.of, Some(&plan.axes), whole);
             let taker = rows.taker(&plan.run, &plan.bound, &selection);
             let take = |points: &mut Numbered<'_>| taker.take(points);
             engine.solve_pieces(&plan.run, &take, &mut |piece| map.add(piece, &mut rows))?;
@@ -239,7 +259,7 @@ impl MapEntry {
                 let points: Vec<PointResult> = of_map.map(|((_, _, point), _)| point.clone()).collect();
                 let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
                 let mut map = Map::new(run, &bound, oil, &rows);
-                let selection = Selection::new(None, false);
+                let selection = Selection::new(self.of, None, false);
                 let taker = rows.taker(run, &bound, &selection);
                 let piece = Piece::new(0, points, Vec::new()).made(0, &|points| taker.take(points));
                 map.add(piece, &mut rows)?;
@@ -264,6 +284,9 @@ struct Rows<'c> {
     parts: Vec<String>,
     /// Limits of the study at points.
     limits: Vec<LimitColumn>,
+    /// Whether a transmission has machines.
+    has_unit: bool,
+    of: MapOf,
     /// Number of columns before those of points.
     constant: usize,
     table: Table,
@@ -278,9 +301,12 @@ impl<'c> Rows<'c> {
         let parts = all.iter().flat_map(|built| built.transmission.parts());
         let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
         let limits = LimitColumn::all(engine.language, engine.study);
+        let has_unit = all.iter().any(|built| engine.has_machines(&built.transmission));
         Self {
-            table: RowsOf::none(bound, &parts, &limits).table(engine.name, []),
+            table: RowsOf::none(bound, &parts, &limits, has_unit).table(engine.name, []),
             limits,
+            has_unit,
+            of: entry.of,
             holds: engine.sink.is_none() || entry.write.contains(&Write::Json),
             wanted: engine.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
             constant: 2 + bound.len(),
@@ -292,7 +318,7 @@ impl<'c> Rows<'c> {
     /// Takes the rows of a run.
     fn taker<'r>(&self, run: &'r Run<'r>, bound: &[(String, Value)], selection: &'r Selection) -> Taker<'r> {
         Taker {
-            rows: RowsOf::new(run, bound, &self.parts, &self.limits),
+            rows: RowsOf::new(run, bound, &self.parts, &self.limits, self.has_unit),
             wanted: self.wanted,
             selection,
             run,
@@ -306,6 +332,7 @@ struct Map<'a> {
     run: Run<'a>,
     bound: Vec<(String, Value)>,
     oil: OilTemperature,
+    of: MapOf,
     shown: ShownMap,
     seen: Vec<Extent>,
     lost: TotalLoss,
@@ -324,6 +351,7 @@ impl<'a> Map<'a> {
             run: run.clone(),
             bound: bound.to_vec(),
             oil,
+            of: rows.of,
             shown: ShownMap::new(None, false),
             seen: Vec::new(),
             lost: TotalLoss::default(),
@@ -376,8 +404,9 @@ impl<'a> Map<'a> {
                 columns,
                 self.rows,
                 self.undefined,
-                &rows.limits,
+                (&rows.limits, rows.has_unit),
             ),
+            of: self.of,
             limits: rows.limits.clone(),
             model_set: built.name.clone(),
             gear: self.run.points.gear.clone(),

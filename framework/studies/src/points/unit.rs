@@ -72,6 +72,23 @@ impl UnitPoint {
         },
     ];
 
+    /// The columns, none without machines.
+    pub fn columns(has_machines: bool) -> &'static [UnitColumn] {
+        if has_machines { &Self::COLUMNS } else { &[] }
+    }
+
+    /// Power at the shafts of the machines over the power of the DC link; while they generate, the reciprocal. Absent if no power passes. \[-\]
+    pub fn machine_efficiency(&self) -> Option<f64> {
+        let shafts = self.dc_power_w - self.machine_loss_w - self.inverter_loss_w;
+        if self.dc_power_w > 0.0 && shafts > 0.0 {
+            Some(shafts / self.dc_power_w)
+        } else if self.dc_power_w < 0.0 && shafts < 0.0 {
+            Some(self.dc_power_w / shafts)
+        } else {
+            None
+        }
+    }
+
     /// The unit of machines and a gearbox with a loss \[W\]; `None` without machines.
     pub fn new(machines: &[MachineState], loss: f64) -> Option<Self> {
         let sum = |of: fn(&MachineState) -> f64| machines.iter().map(of).sum::<f64>();

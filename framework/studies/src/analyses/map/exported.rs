@@ -99,7 +99,7 @@ fn losses(engine: &Engine<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<Lo
         return Ok(losses);
     }
     engine.solve_pieces(&map.run.with_list(list), &take_points, &mut |piece| {
-        losses.extend(piece.points().map(LossAt::from));
+        losses.extend(piece.points().map(|point| LossAt::new(map.of, point)));
         Ok(())
     })?;
     Ok(losses)

@@ -14,7 +14,7 @@ use super::super::Run;
 use super::super::limits::at_points::LimitColumn;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
-use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss};
+use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss, UnitColumn, UnitPoint};
 use crate::table::{Column, Table, Values};
 
 /// Columns of a point from its torque to the first sum.
@@ -30,21 +30,30 @@ pub struct RowsOf {
     parts: Vec<(String, Option<usize>)>,
     /// Limits of the study at points.
     limits: Vec<LimitColumn>,
+    /// Whether there are columns of the drive unit.
+    has_unit: bool,
 }
 
 impl RowsOf {
     /// Of no map: for the columns of a table without rows.
-    pub fn none(bound: &[String], parts: &[String], limits: &[LimitColumn]) -> Self {
+    pub fn none(bound: &[String], parts: &[String], limits: &[LimitColumn], has_unit: bool) -> Self {
         Self {
             model_set: String::new(),
             gear: String::new(),
             bound: bound.iter().map(|path| (path.clone(), String::new())).collect(),
             parts: parts.iter().map(|part| (part.clone(), None)).collect(),
             limits: limits.to_vec(),
+            has_unit,
         }
     }
 
-    pub fn new(run: &Run<'_>, bound: &[(String, Value)], parts: &[String], limits: &[LimitColumn]) -> Self {
+    pub fn new(
+        run: &Run<'_>,
+        bound: &[(String, Value)],
+        parts: &[String],
+        limits: &[LimitColumn],
+        has_unit: bool,
+    ) -> Self {
         let all = run.built.transmission.parts();
         let place = |part: &String| all.iter().position(|o| o.path == *part);
         Self {
@@ -53,6 +62,7 @@ impl RowsOf {
             bound: bound.iter().map(|(path, value)| (path.clone(), word(value))).collect(),
             parts: parts.iter().map(|part| (part.clone(), place(part))).collect(),
             limits: limits.to_vec(),
+            has_unit,
         }
     }
 
@@ -88,6 +98,11 @@ impl RowsOf {
             .each(&self.parts, |table, (part, place)| {
                 table.number(format!("{part}_w"), "W", "Loss of the component", |p| {
                     place.and_then(|place| loss_of(p, place))
+                })
+            })
+            .each(UnitPoint::columns(self.has_unit), |table, column| {
+                table.number(column.name, column.unit, column.meaning, |p| {
+                    p.unit().as_ref().and_then(column.read)
                 })
             })
             .each(self.limits.iter().enumerate(), |table, (i, limit)| {
@@ -173,6 +188,7 @@ pub struct MapPoints {
     rows: Range<usize>,
     undefined: Vec<UndefinedLoss>,
     limits: Vec<LimitColumn>,
+    has_unit: bool,
 }
 
 /// A point.
@@ -206,6 +222,9 @@ pub struct MapPoint<'a> {
     sums_w: Option<Sums>,
     /// Losses of the components, in order. [W]
     parts_w: Vec<Option<f64>>,
+    /// Quantities of the drive unit, by name; absent without machines. [W and -]
+    #[serde(skip_serializing_if = "Ordered::is_empty")]
+    unit: Ordered<Option<f64>>,
     /// Limited quantities, by the names of the limits; absent if the study has none at points.
     #[serde(skip_serializing_if = "Ordered::is_empty")]
     limit_values: Ordered<Option<f64>>,
@@ -229,10 +248,11 @@ impl MapPoints {
         parts: Vec<usize>,
         rows: Range<usize>,
         undefined: Vec<UndefinedLoss>,
-        limits: &[LimitColumn],
+        (limits, has_unit): (&[LimitColumn], bool),
     ) -> Self {
         Self {
             limits: limits.to_vec(),
+            has_unit,
             table: table.clone(),
             first,
             parts,
@@ -258,6 +278,18 @@ impl MapPoints {
         let limited = &self.table.columns[self.table.columns.len() - self.limits.len()..];
         let value = |column: &Column| column.numbers().map_or(f64::NAN, |numbers| numbers[row]);
         limited.iter().map(value).collect()
+    }
+
+    /// The quantities of the drive unit, whose columns precede those of the limits.
+    fn unit(&self, row: usize) -> Ordered<Option<f64>> {
+        let columns = UnitPoint::columns(self.has_unit);
+        let first = self.table.columns.len() - self.limits.len() - columns.len();
+        let value = |(i, column): (usize, &UnitColumn)| {
+            let numbers = self.table.columns[first + i].numbers();
+            let number = numbers.map(|numbers| numbers[row]).filter(|x| !x.is_nan());
+            (column.name.to_owned(), number)
+        };
+        Ordered(columns.iter().enumerate().map(value).collect())
     }
 
     fn sums(&self, row: usize) -> Option<Sums> {
@@ -291,6 +323,7 @@ impl MapPoints {
                 .iter()
                 .map(|part| number(FIXED + SUMS.len() + part))
                 .collect(),
+            unit: self.unit(row),
             limit_values: LimitColumn::by_name(&self.limits, &self.limits_at(row)),
             undefined: undefined.map(|i| Missing {
                 part: &self.undefined[i].part,
