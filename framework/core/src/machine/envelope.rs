@@ -32,6 +32,17 @@ pub enum Reached {
     Beyond,
 }
 
+impl Reached {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Continuous => "continuous",
+            Self::Peak => "peak",
+            Self::Beyond => "beyond",
+        }
+    }
+}
+
 /// Relative excess of a torque or a speed that is rounding.
 const ROUNDING: f64 = 1e-9;
 

@@ -92,7 +92,7 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
         ));
     }
     if let Some(consumption) = &duty.consumption {
-        consumption_text(consumption, page);
+        consumption_text(duty, consumption, page);
     }
     if energy.brakes_j > 0.0 {
         page.line(format!(
@@ -103,8 +103,8 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
     if let Some(heat) = &duty.heat {
         heat_text(duty, heat, page);
     }
-    if duty.motors_beyond_map {
-        page.line("  note: a motor was outside its map; the loss at the edge of the map is used");
+    for text in duty.machines.iter().flat_map(|machine| machine.cautions(duty.duration_s)) {
+        page.line(format!("  note: {text}"));
     }
     page.line(format!(
         "  {} intervals, {} steps, {} evaluations",
@@ -114,7 +114,7 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
 }
 
 /// Consumption, recuperation and range of the vehicle.
-fn consumption_text(consumption: &Consumption, page: &mut Page) {
+fn consumption_text(duty: &DutyOfSet, consumption: &Consumption, page: &mut Page) {
     page.line(format!(
         "  battery: {} kWh/100 km drawn, {} recuperated, consumption {} kWh/100 km{}",
         short(consumption.drawn_kwh_per_100_km),
@@ -145,7 +145,7 @@ fn consumption_text(consumption: &Consumption, page: &mut Page) {
         share(consumption.system_efficiency),
         share(consumption.recuperated_share)
     ));
-    if consumption.motor_beyond_map {
+    if consumption.motor_beyond_map && duty.machines.is_empty() {
         page.line("  note: the motor was outside its map, the loss at the edge of the map is used");
     }
     if consumption.machine_limited > 0 {

@@ -2,6 +2,7 @@
 
 mod bands;
 mod bearings;
+mod machines;
 mod outcome;
 mod points;
 pub(super) mod ratings;
@@ -36,6 +37,7 @@ use crate::study::{By, DriveEntry, ToleranceEntry, Uses, Write};
 use crate::table::Table;
 
 pub use bearings::{BearingLoad, BearingLoads, Load, LoadCase};
+pub use machines::{MachineOfDuty, OutsideMap};
 pub use ratings::RatedOverTime;
 pub use tables::NetworkTables;
 

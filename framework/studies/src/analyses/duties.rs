@@ -504,7 +504,7 @@ impl Duties<'_> {
 
 /// Rejects sums by the terms of models, because energies of cycles are stored by component only.
 pub fn sums_energies(cx: &Planner<'_>, path: &str, by: By) -> Result<(), Stopped> {
-    if matches!(by, By::Term | By::Sum) {
+    if matches!(by, By::Term | By::Sum | By::Unit) {
         let message = "the energies of a cycle can be summed by mechanism, component or stage only";
         return Err(cx.wrong_as(
             codes::DUTY,

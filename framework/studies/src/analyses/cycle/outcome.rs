@@ -10,6 +10,7 @@ use super::CycleExport;
 use super::bearings::BearingLoads;
 use super::ratings::RatedOverTime;
 use super::tables::NetworkTables;
+use super::machines::MachineOfDuty;
 use crate::analyses::Head;
 use crate::duty::Consumption;
 use crate::points::Note;
@@ -71,6 +72,9 @@ pub struct DutyOfSet {
     pub motors: Vec<HeatOfMotor>,
     /// True if a motor was outside its map; the loss at the edge of the map is used.
     pub motors_beyond_map: bool,
+    /// The machines that the gearbox describes; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub machines: Vec<MachineOfDuty>,
     /// Temperatures of the nodes, or of the oil only.
     pub nodes: Vec<TemperatureOfNode>,
     /// Note of the study on the cycle.

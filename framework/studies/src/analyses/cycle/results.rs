@@ -3,6 +3,7 @@
 use gearloss_framework::transmission::Transmission;
 
 use super::ReferenceLoss;
+use super::machines::MachineOfDuty;
 use super::outcome::{
     BrokenOff, DutyOfSet, EnergyOfDuty, EnergyPerDistance, HeatOfDuty, HeatOfExchanger, HeatOfMotor, HeatOfNode,
     IntervalOfDuty, ReferenceOfDuty, TemperatureOfNode,
@@ -46,6 +47,7 @@ pub fn duty(
         heat: heat(t, driven),
         motors: motors(t, driven),
         motors_beyond_map: driven.total.beyond_map,
+        machines: MachineOfDuty::all(t, driven),
         nodes: nodes
             .into_iter()
             .zip(measured)
