@@ -88,7 +88,12 @@ fn machine_inverter_and_battery_have_the_energies_of_the_hand_calculation() {
     let cells = "cells: { over_charge: [{ charge: 0.5, voltage: 360 V, resistance: 0.1 ohm }] }";
     let none = "    regeneration: none";
     let cases = [
-        (bare, REGENERATION, "efficiency: 1", [16.124_495_741_8, 7.25, 8.874_495_741_82, 676.094_752_26]),
+        (
+            bare,
+            REGENERATION,
+            "efficiency: 1",
+            [16.124_495_741_8, 7.25, 8.874_495_741_82, 676.094_752_26],
+        ),
         (
             with_inverter,
             REGENERATION,
@@ -117,14 +122,27 @@ fn machine_inverter_and_battery_have_the_energies_of_the_hand_calculation() {
     for (machine, regeneration, law, expected) in cases {
         let found = cycle(machine, &format!("{regeneration}\n{}", battery(law)));
         let consumption = &found["consumption"];
-        for (key, expected) in ["drawn_kwh_per_100_km", "recuperated_kwh_per_100_km", "consumption_kwh_per_100_km", "range_km"]
-            .iter()
-            .zip(expected)
+        for (key, expected) in [
+            "drawn_kwh_per_100_km",
+            "recuperated_kwh_per_100_km",
+            "consumption_kwh_per_100_km",
+            "range_km",
+        ]
+        .iter()
+        .zip(expected)
         {
             close(&consumption[*key], expected);
         }
         // Battery = wheels + every loss + brakes + auxiliaries, over the cycle and in each interval.
-        let parts = ["wheels", "transmission", "machine", "inverter", "brakes", "auxiliaries", "battery"];
+        let parts = [
+            "wheels",
+            "transmission",
+            "machine",
+            "inverter",
+            "brakes",
+            "auxiliaries",
+            "battery",
+        ];
         let parts = parts.map(|part| number(&consumption[format!("{part}_kwh_per_100_km")]));
         close(&consumption["consumption_kwh_per_100_km"], parts.iter().sum());
         assert!(number(&consumption["residual_share"]) < 1e-9);
@@ -153,7 +171,10 @@ fn the_losses_of_machine_and_inverter_are_apart() {
         &consumption["inverter_kwh_per_100_km"],
         per_distance(192.670_075_65 + 32.016_392_392_9 + 110.4),
     );
-    close(&found["machines"][0]["loss_j"], 10.0 * (755.266_696_549 + 125.504_258_18 + 480.0));
+    close(
+        &found["machines"][0]["loss_j"],
+        10.0 * (755.266_696_549 + 125.504_258_18 + 480.0),
+    );
     assert_eq!(found["machines"][0]["machine"], "machines.motor");
 }
 
@@ -171,7 +192,10 @@ fn a_torque_above_the_envelope_is_limited_and_counted_or_refused() {
     let consumption = &limited["consumption"];
     assert_eq!(consumption["machine_limited"], 1);
     // 57.9 Nm are asked for: 8425 W at the wheels, of which 50 Nm supply 50 x 150 x 0.97.
-    close(&consumption["lacking_kwh_per_100_km"], per_distance(8425.0 - 50.0 * 150.0 * 0.97));
+    close(
+        &consumption["lacking_kwh_per_100_km"],
+        per_distance(8425.0 - 50.0 * 150.0 * 0.97),
+    );
     assert!(number(&consumption["interval_residual_share"]) < 1e-9);
     let of_machine = &limited["machines"][0];
     close(&of_machine["longest_above_continuous_s"], 30.0);
@@ -179,7 +203,12 @@ fn a_torque_above_the_envelope_is_limited_and_counted_or_refused() {
     close(&of_machine["beyond_envelope_s"], 0.0);
     let refused = unit(&machine(", beyond: refuse"), &vehicle, CYCLES);
     assert!(!refused.succeeded);
-    for words in ["machines.motor.envelope", "57.9 Nm at 1432 rpm, where it reaches 50.0 Nm", "first at 0 s", "E0541"] {
+    for words in [
+        "machines.motor.envelope",
+        "57.9 Nm at 1432 rpm, where it reaches 50.0 Nm",
+        "first at 0 s",
+        "E0541",
+    ] {
         assert!(refused.text.contains(words), "{words}: {}", refused.text);
     }
 }
@@ -191,12 +220,21 @@ fn a_battery_at_its_limit_is_counted() {
     let vehicle = format!("{REGENERATION}\n    battery: {{ energy: 60 kWh, {cells} }}");
     let refused = unit("{ efficiency: 0.92, contains: [inverter] }", &vehicle, CYCLES);
     assert!(refused.text.contains("least_voltage"), "{}", refused.text);
-    let vehicle = vehicle.replace("least_voltage: 355 V, greatest_voltage: 358 V", "least_voltage: 339 V, greatest_voltage: 381 V");
+    let vehicle = vehicle.replace(
+        "least_voltage: 355 V, greatest_voltage: 358 V",
+        "least_voltage: 339 V, greatest_voltage: 381 V",
+    );
     let consumption = cycle("{ efficiency: 0.92, contains: [inverter] }", &vehicle)["consumption"].clone();
     assert!(number(&consumption["interval_residual_share"]) < 1e-9);
     let parts = ["wheels", "transmission", "machine", "brakes", "battery"];
-    let sum: f64 = parts.map(|part| number(&consumption[format!("{part}_kwh_per_100_km")])).iter().sum();
-    close(&consumption["consumption_kwh_per_100_km"], sum - number(&consumption["shortfall_kwh_per_100_km"]));
+    let sum: f64 = parts
+        .map(|part| number(&consumption[format!("{part}_kwh_per_100_km")]))
+        .iter()
+        .sum();
+    close(
+        &consumption["consumption_kwh_per_100_km"],
+        sum - number(&consumption["shortfall_kwh_per_100_km"]),
+    );
 }
 
 #[test]
@@ -220,7 +258,10 @@ vehicles:
 "
     );
     let gearbox = format!("{STAGE}\nmachines: {{ motor: {{ map: short.csv, contains: [inverter] }} }}\n");
-    let ran = run_texts(&study, &[("box.yaml", &gearbox), ("three.csv", CYCLE), ("short.csv", short)]);
+    let ran = run_texts(
+        &study,
+        &[("box.yaml", &gearbox), ("three.csv", CYCLE), ("short.csv", short)],
+    );
     assert!(ran.succeeded, "{}", ran.text);
     let farthest = &ran.json("c")["cycles"][0]["machines"][0]["farthest"];
     close(&farthest["torque_beyond_nm"], 57.903_780_068_7 - 50.0);
@@ -242,7 +283,11 @@ analyses:
   bands: { type: uncertainty, grid: g, inputs: [{ path: meshes.stage.loss_factor, from: 0.8, to: 1.2 }], samples: 8, write: [json, csv] }
   effects: { type: sensitivity, grid: g, inputs: [{ path: meshes.stage.loss_factor, from: 0.8, to: 1.2 }], write: [json] }
 ";
-    let ran = unit("{ map: map.csv, inverter: { efficiency: 0.98 } }", "    regeneration: none", grids);
+    let ran = unit(
+        "{ map: map.csv, inverter: { efficiency: 0.98 } }",
+        "    regeneration: none",
+        grids,
+    );
     assert!(ran.succeeded, "{}", ran.text);
     let map = ran.json("unit");
     assert_eq!(map["of"], "unit");
@@ -264,15 +309,29 @@ analyses:
     let efficiency = 0.97 * power / (power + machine + inverter);
     close(&point["unit"]["system_efficiency"], efficiency);
     assert!(ran.text.contains("efficiency of the drive unit"), "{}", ran.text);
-    for (analysis, words) in [("unit", "system_efficiency"), ("path", "dc_power_w"), ("points", "unit_loss_w"), ("bands", "unit_loss_w_high")] {
+    for (analysis, words) in [
+        ("unit", "system_efficiency"),
+        ("path", "dc_power_w"),
+        ("points", "unit_loss_w"),
+        ("bands", "unit_loss_w_high"),
+    ] {
         assert!(ran.csv(analysis).lines().next().unwrap().contains(words), "{analysis}");
     }
     let listed = ran.json("points")["operating_points"][0].clone();
-    assert_eq!(listed["shares"], serde_json::json!(["gearbox", "machines", "inverters"]));
+    assert_eq!(
+        listed["shares"],
+        serde_json::json!(["gearbox", "machines", "inverters"])
+    );
     close(&listed["points"][0]["losses_w"][2], inverter);
     close(&listed["points"][0]["limit_values"]["system"], efficiency);
     let swept = &ran.json("path")["sweep"][1]["points"];
-    assert!(swept.as_array().unwrap().iter().any(|p| p["unit"]["system_efficiency"] == point["unit"]["system_efficiency"]));
+    assert!(
+        swept
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|p| p["unit"]["system_efficiency"] == point["unit"]["system_efficiency"])
+    );
     let outputs = ran.json("effects")["sensitivities"].to_string() + &ran.json("effects").to_string();
     assert!(outputs.contains("system_efficiency") && outputs.contains("unit_loss"));
     // While generating, the efficiency is that back to the DC link.
@@ -284,10 +343,16 @@ analyses:
 #[test]
 fn what_is_counted_twice_or_unknown_is_refused() {
     let cases = [
-        ("{ map: map.csv, contains: [inverter], inverter: { efficiency: 0.98 } }", "would be counted twice"),
+        (
+            "{ map: map.csv, contains: [inverter], inverter: { efficiency: 0.98 } }",
+            "would be counted twice",
+        ),
         ("{ map: map.csv, efficiency: 0.9 }", "both `map` and `efficiency`"),
         ("{ contains: [inverter] }", "the losses of the machine are not stated"),
-        ("{ map: map.csv, inverter: {} }", "the losses of the inverter are not stated"),
+        (
+            "{ map: map.csv, inverter: {} }",
+            "the losses of the inverter are not stated",
+        ),
         (
             "{ map: map.csv, voltage: 400 V, inverter: { bridge: { channel_resistance: 3 mohm, frequency: 10 kHz, energy_on: 12 mJ, energy_off: \
              16 mJ, at_current: 450 A, at_voltage: 400 V } } }",
@@ -295,22 +360,38 @@ fn what_is_counted_twice_or_unknown_is_refused() {
         ),
         ("{ map: map.csv, contains: [inverter], rotor: nowhere }", "nowhere"),
         ("{ map: map.csv, contains: [inverter], port: shaft }", "port"),
-        ("{ map: map.csv, contains: [inverter], freewheel: [{ speed: 0 rpm, loss: 0 W }] }", "belongs to `idle: off`"),
+        (
+            "{ map: map.csv, contains: [inverter], freewheel: [{ speed: 0 rpm, loss: 0 W }] }",
+            "belongs to `idle: off`",
+        ),
         (
             "{ map: map.csv, contains: [inverter], envelope: { peak: { torque: 10 Nm, power: 1 kW }, continuous: { torque: 20 Nm, power: 1 kW } } }",
             "above that of the peak",
         ),
     ];
     for (machine, words) in cases {
-        let ran = unit(machine, "    regeneration: none", "analyses: { s: { type: map, grid: g } }\ngrids: { g: { torque: 10 Nm, speed: 1000 rpm } }");
+        let ran = unit(
+            machine,
+            "    regeneration: none",
+            "analyses: { s: { type: map, grid: g } }\ngrids: { g: { torque: 10 Nm, speed: 1000 rpm } }",
+        );
         assert!(!ran.succeeded && ran.text.contains(words), "{machine}: {}", ran.text);
     }
     let battery = "    regeneration: none\n    battery: { energy: 60 kWh, efficiency: 0.9, cells: { over_charge: [{ charge: 0.5, voltage: 360 V, resistance: 0.1 ohm }] } }";
     let ran = unit("{ efficiency: 0.92, contains: [inverter] }", battery, CYCLES);
-    assert!(ran.text.contains("E0540") && ran.text.contains("count the losses twice"), "{}", ran.text);
+    assert!(
+        ran.text.contains("E0540") && ran.text.contains("count the losses twice"),
+        "{}",
+        ran.text
+    );
     let twice = "    regeneration: none\n    battery: { energy: 60 kWh, efficiency: 0.9 }\n    motor_map: map.csv";
     let ran = unit("{ efficiency: 0.92, contains: [inverter] }", twice, CYCLES);
-    assert!(ran.text.contains("the gearbox has a machine: its losses would be counted twice"), "{}", ran.text);
+    assert!(
+        ran.text
+            .contains("the gearbox has a machine: its losses would be counted twice"),
+        "{}",
+        ran.text
+    );
 }
 
 #[test]
@@ -321,10 +402,21 @@ grids: { g: { torque: 10 Nm, speed: 1000 rpm } }
 analyses: { m: { type: map, grid: g, of: unit } }
 ";
     let ran = run_texts(study, &[("box.yaml", STAGE)]);
-    assert!(ran.text.contains("E0542") && ran.text.contains("analyses.m.of"), "{}", ran.text);
-    let limited = study.replace("analyses: { m: { type: map, grid: g, of: unit } }", "analyses: { m: { type: map, grid: g } }\nlimits: { l: { quantity: unit_loss, most: 1 kW } }");
+    assert!(
+        ran.text.contains("E0542") && ran.text.contains("analyses.m.of"),
+        "{}",
+        ran.text
+    );
+    let limited = study.replace(
+        "analyses: { m: { type: map, grid: g, of: unit } }",
+        "analyses: { m: { type: map, grid: g } }\nlimits: { l: { quantity: unit_loss, most: 1 kW } }",
+    );
     let ran = run_texts(&limited, &[("box.yaml", STAGE)]);
-    assert!(ran.text.contains("E0542") && ran.text.contains("limits.l"), "{}", ran.text);
+    assert!(
+        ran.text.contains("E0542") && ran.text.contains("limits.l"),
+        "{}",
+        ran.text
+    );
 }
 
 #[test]
@@ -339,10 +431,89 @@ analyses: { m: { type: map, grid: g } }
     let map = synthetic();
     let ran = run_texts(study, &[("box.yaml", &gearbox), ("map.csv", &map)]);
     assert!(
-        ran.text.contains("the map contains the bearings of the rotor, and `bearings.B1` on its shaft has a loss as well"),
+        ran.text
+            .contains("the map contains the bearings of the rotor, and `bearings.B1` on its shaft has a loss as well"),
         "{}",
         ran.text
     );
     // Those of the other shaft are not the rotor's.
     assert!(!ran.text.contains("bearings.B3"), "{}", ran.text);
+}
+
+/// A study of the stage with points measured at a factor of 1.1 on the loss of its mesh.
+fn rows_together(analysis: &str) -> Ran {
+    let mut measured = "torque [Nm],speed [rpm],loss [W]\n".to_owned();
+    for (torque, speed) in [(10.0, 1000.0), (20.0, 2000.0), (40.0, 1500.0), (30.0, 500.0)] {
+        let power = torque * speed * std::f64::consts::PI / 30.0;
+        measured.push_str(&format!("{torque},{speed},{}\n", 1.1 * 0.03 * power));
+    }
+    let study = format!(
+        "gearloss: study/1
+gearboxes: {{ box: box.yaml }}
+conditions: {{ oil_temperature: 60 degC }}
+measurements: {{ rig: {{ file: rig.csv, stated_as: standard, accuracies: {{ loss: {{ percent_of_reading: 1 }} }} }} }}
+grids: {{ g: {{ torque: 10 Nm, speed: 1000 rpm }} }}
+analyses:
+  a: {analysis}
+"
+    );
+    run_texts(&study, &[("box.yaml", STAGE), ("rig.csv", &measured)])
+}
+
+#[test]
+fn paths_move_together_along_rows_in_bands_and_fits() {
+    let rows =
+        "paths: [meshes.stage.loss_factor, lubricants.oil.viscosity.kv40], values: [[0.5, 30 mm2/s], [1.5, 60 mm2/s]]";
+    let ran = rows_together(&format!(
+        "{{ type: uncertainty, grid: g, inputs: [{{ {rows} }}], samples: 16, write: [json] }}"
+    ));
+    assert!(ran.succeeded, "{}", ran.text);
+    let band = &ran.json("a")["bands"][0];
+    assert_eq!(
+        band["inputs"][0]["paths"],
+        serde_json::json!(["meshes.stage.loss_factor", "lubricants.oil.viscosity.kv40"])
+    );
+    let loss = &band["points"][0]["loss_w"];
+    let (nominal, low) = (number(&loss["nominal"]), number(&loss["band"][0]));
+    assert!(low > 0.5 * nominal && low < 0.6 * nominal, "{loss}");
+    // Numbers of teeth take the nearest row: all samples can be built.
+    let teeth = "paths: [gears.pinion.z, gears.wheel.z], values: [[20, 180], [25, 175], [30, 170]]";
+    let ran = rows_together(&format!(
+        "{{ type: uncertainty, grid: g, inputs: [{{ {teeth} }}], samples: 16, write: [json] }}"
+    ));
+    assert!(ran.succeeded, "{}", ran.text);
+    assert_eq!(ran.json("a")["bands"][0]["failed"], 0);
+    let fit = |rows: &str| {
+        rows_together(&format!(
+            "{{ type: identify, data: rig, residuals: [loss], parameters: {{ lot: {{ {rows} }} }}, write: [json] }}"
+        ))
+    };
+    let ran = fit(rows);
+    assert!(ran.succeeded, "{}", ran.text);
+    let found = ran.json("a").to_string();
+    let parameter = &ran.json("a")["identifications"][0]["parameters"][0];
+    assert!((number(&parameter["value"]) - 1.1).abs() < 1e-6, "{found}");
+    for (rows, words) in [
+        ("paths: [meshes.stage.loss_factor]", "there is only one path"),
+        (
+            "paths: [meshes.stage.loss_factor, lubricants.oil.viscosity.kv40], values: [[0.5, 30 mm2/s]]",
+            "two rows of values are needed",
+        ),
+        (
+            "paths: [meshes.stage.loss_factor, lubricants.oil.viscosity.kv40], values: [[0.5, 30 mm2/s], [0.5, 60 mm2/s]]",
+            "do not increase",
+        ),
+        (
+            "paths: [meshes.stage.loss_factor, lubricants.oil.viscosity.kv40], values: [[0.5, 30 mm2/s], [1.5]]",
+            "a list of 2 values is needed",
+        ),
+        (
+            "path: meshes.stage.loss_factor, paths: [meshes.stage.loss_factor, lubricants.oil.viscosity.kv40]",
+            "both `path` and `paths`",
+        ),
+        ("from: 1, to: 2", "no path is stated"),
+    ] {
+        let ran = fit(rows);
+        assert!(!ran.succeeded && ran.text.contains(words), "{rows}: {}", ran.text);
+    }
 }

@@ -20,6 +20,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+pub use crate::machine::MachineEntry;
 pub use bevel_teeth::{BevelAxes, BevelFault, BevelPair, BevelTeeth};
 pub use chains::{ChainEntry, JointEntry};
 pub use crossed::{
@@ -27,7 +28,6 @@ pub use crossed::{
     SpiralAngleOf, WormMeshEntry,
 };
 pub use gearloss_document::Ordered;
-pub use crate::machine::MachineEntry;
 pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
 pub use housing::{
     HeatInto, HousingEntry, InsideEntry, InsideSection, LevelOver, OilEntry, OutsideEntry, Running, RunningWord,

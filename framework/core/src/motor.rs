@@ -454,7 +454,8 @@ fn between_signs(motoring: &[Node], generating: &[Node]) -> Vec<Node> {
     let both = positive.iter().filter_map(|(key, a)| Some((a, negative.get(key)?)));
     both.filter(|(a, _)| a.torque > 0.0)
         .map(|(a, b)| {
-            let between = |a_value: f64, b_value: f64| (a_value * b.torque + b_value * a.torque) / (a.torque + b.torque);
+            let between =
+                |a_value: f64, b_value: f64| (a_value * b.torque + b_value * a.torque) / (a.torque + b.torque);
             Node {
                 torque: 0.0,
                 loss: between(a.loss, b.loss),

@@ -57,6 +57,7 @@ use crate::document::Diagnostic;
 use crate::hydraulics::Hydraulics;
 use crate::loads::{ShaftLoads, StaticRating};
 use crate::loss::NoteBase;
+use crate::machine::Machine;
 use crate::mechanism::Slot;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart};
 use crate::mechanism::crossed_helical_mesh::{CrossedHelicalMesh, CrossedHelicalPart};
@@ -64,7 +65,6 @@ use crate::mechanism::gear_drag::{DragPart, GearDrag};
 use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
 use crate::mechanism::worm_mesh::{AtRest as WormAtRest, WormMesh, WormPart};
 use crate::registry::{Instance, Placed};
-use crate::machine::Machine;
 use crate::thermal::Housing;
 use crate::thermal::network::Network;
 

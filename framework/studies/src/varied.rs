@@ -135,7 +135,11 @@ impl Varied {
     ) -> Result<Self, (String, String, String)> {
         let wrong = |key: String, message: String, help: &str| Err((key, message, help.to_owned()));
         if paths.len() < 2 {
-            return wrong("paths".to_owned(), "there is only one path".to_owned(), "write `path` for it, or add the others");
+            return wrong(
+                "paths".to_owned(),
+                "there is only one path".to_owned(),
+                "write `path` for it, or add the others",
+            );
         }
         if rows.len() < 2 {
             let help = "write for example `values: [[24, 83], [30, 77]]`";
@@ -150,9 +154,17 @@ impl Varied {
             } else {
                 Self::new(language, resolved, path, Tie::Value)
             };
-            let varied = varied.map_err(|error| (format!("paths.{k}"), error.message, error.help.unwrap_or_default()))?;
-            if all.iter().any(|other: &Self| other.paths.iter().any(|path| varied.paths.contains(path))) {
-                return wrong(format!("paths.{k}"), format!("`{path}` is already in the list"), "delete it");
+            let varied =
+                varied.map_err(|error| (format!("paths.{k}"), error.message, error.help.unwrap_or_default()))?;
+            if all
+                .iter()
+                .any(|other: &Self| other.paths.iter().any(|path| varied.paths.contains(path)))
+            {
+                return wrong(
+                    format!("paths.{k}"),
+                    format!("`{path}` is already in the list"),
+                    "delete it",
+                );
             }
             let mut column = Vec::new();
             for (i, row) in rows.iter().enumerate() {
@@ -162,7 +174,8 @@ impl Varied {
                     return wrong(at, message, "write for example `values: [[24, 83], [30, 77]]`");
                 };
                 let number = varied.quantity(value, false);
-                let number = number.map_err(|reason| (format!("{at}.{k}"), reason, "write a quantity of its path".to_owned()))?;
+                let number = number
+                    .map_err(|reason| (format!("{at}.{k}"), reason, "write a quantity of its path".to_owned()))?;
                 let [least, greatest] = varied.range;
                 if !(least..=greatest).contains(&number) || (is_whole && number.fract() != 0.0) {
                     let message = format!("{number} is no possible value of `{path}`");
@@ -177,7 +190,11 @@ impl Varied {
             columns.iter_mut().for_each(|column| column.reverse());
         } else if !columns[0].windows(2).all(|pair| pair[0] < pair[1]) {
             let help = "sort the rows by their first value, which must not repeat";
-            return wrong("values".to_owned(), "the first values of the rows do not increase".to_owned(), help);
+            return wrong(
+                "values".to_owned(),
+                "the first values of the rows do not increase".to_owned(),
+                help,
+            );
         }
         let first = columns[0].clone();
         let mut merged = all[0].clone();
@@ -237,21 +254,25 @@ impl Varied {
 
     /// Overrides that set all of them to a value.
     pub fn overrides(&self, value: f64) -> impl Iterator<Item = (String, Value)> + '_ {
-        self.paths.iter().zip(&self.base).enumerate().map(move |(i, (path, base))| {
-            let changed = match (&self.along, self.tie) {
-                (Some(along), _) => {
-                    let changed = along.value(i, value);
-                    // Whole numbers of a document are written as such.
-                    if along.nearest && changed.fract() == 0.0 {
-                        return (path.clone(), Value::from(changed as i64));
+        self.paths
+            .iter()
+            .zip(&self.base)
+            .enumerate()
+            .map(move |(i, (path, base))| {
+                let changed = match (&self.along, self.tie) {
+                    (Some(along), _) => {
+                        let changed = along.value(i, value);
+                        // Whole numbers of a document are written as such.
+                        if along.nearest && changed.fract() == 0.0 {
+                            return (path.clone(), Value::from(changed as i64));
+                        }
+                        changed
                     }
-                    changed
-                }
-                (None, Tie::Value) => value,
-                (None, Tie::Factor) => value * base.unwrap_or(0.0),
-            };
-            (path.clone(), Value::from(changed))
-        })
+                    (None, Tie::Value) => value,
+                    (None, Tie::Factor) => value * base.unwrap_or(0.0),
+                };
+                (path.clone(), Value::from(changed))
+            })
     }
 
     /// Reads a quantity of this kind from a study: a number in the unit of the path, or a text with a unit. \[unit of the path\]

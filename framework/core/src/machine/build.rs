@@ -70,7 +70,10 @@ pub(crate) fn motors(
         let path = format!("thermal.network.motors.{id}");
         let mut built = machine_of(&path, &MachineEntry::from(motor), around, found)?;
         if let Some(machine) = machines.iter().find(|machine| machine.port == built.port) {
-            let message = format!("`{}` is at port `{}` as well: its losses would be counted twice", machine.path, motor.port);
+            let message = format!(
+                "`{}` is at port `{}` as well: its losses would be counted twice",
+                machine.path, motor.port
+            );
             let help = "delete the motor, and name `rotor` and `stator` at the machine";
             found.push(Diagnostic::error(&path, message).help(help).code(codes::MACHINE));
         }
@@ -105,7 +108,9 @@ fn machine_of(path: &str, entry: &MachineEntry, around: Around<'_>, found: &mut 
         found.push(Diagnostic::error(format!("{path}.rotor_share"), fault.message).help(fault.help));
     }
     let law = match (&entry.map, entry.efficiency) {
-        (Some(file), None) => map_of(&format!("{path}.map"), file, around.files, found).map(|map| Law::Map(Arc::new(map))),
+        (Some(file), None) => {
+            map_of(&format!("{path}.map"), file, around.files, found).map(|map| Law::Map(Arc::new(map)))
+        }
         (None, Some(efficiency)) => Some(Law::Efficiency(efficiency)),
         (given, _) => {
             let message = if given.is_some() {
@@ -133,7 +138,11 @@ fn machine_of(path: &str, entry: &MachineEntry, around: Around<'_>, found: &mut 
     }
     let increases = |speeds: Vec<f64>| speeds.windows(2).all(|pair| pair[0] < pair[1]);
     if !increases(entry.freewheel.iter().map(|at| at.speed).collect()) {
-        found.push(wrong(format!("{path}.freewheel"), "the speeds do not increase", "sort them"));
+        found.push(wrong(
+            format!("{path}.freewheel"),
+            "the speeds do not increase",
+            "sort them",
+        ));
     }
     let port = port?;
     Some(Machine {
@@ -149,11 +158,17 @@ fn machine_of(path: &str, entry: &MachineEntry, around: Around<'_>, found: &mut 
         winding: entry.winding,
         freewheel: (entry.idle == IdleEntry::Off).then(|| {
             let list = &entry.freewheel;
-            [list.iter().map(|at| at.speed).collect(), list.iter().map(|at| at.loss).collect()]
+            [
+                list.iter().map(|at| at.speed).collect(),
+                list.iter().map(|at| at.loss).collect(),
+            ]
         }),
         voltage: entry.voltage,
         inverter: inverter.flatten(),
-        envelope: entry.envelope.as_ref().map(|envelope| Envelope::new(envelope, entry.voltage)),
+        envelope: entry
+            .envelope
+            .as_ref()
+            .map(|envelope| Envelope::new(envelope, entry.voltage)),
     })
 }
 
@@ -202,7 +217,11 @@ fn inverter_of(
             None
         }
         _ => {
-            found.push(wrong(at, "the losses of the inverter are stated twice", "keep one of `efficiency`, `map` and `bridge`"));
+            found.push(wrong(
+                at,
+                "the losses of the inverter are stated twice",
+                "keep one of `efficiency`, `map` and `bridge`",
+            ));
             None
         }
     }
@@ -223,7 +242,8 @@ fn bridge_of(
     let of_map = map.is_some_and(MotorMap::has_phase);
     match &entry.current {
         None if !of_map => {
-            let message = "a map over torque and speed alone has no current, on which the losses of the inverter depend";
+            let message =
+                "a map over torque and speed alone has no current, on which the losses of the inverter depend";
             let help = "add the columns `current`, `power_factor` and `modulation` to the map, or `current: { torque: 300 Nm, current: \
                         400 A, power_factor: 0.85, base_speed: 4000 rpm }` here";
             found.push(wrong(at, message, help));
@@ -255,7 +275,11 @@ fn bridge_of(
         }),
         _ => {
             let help = "state voltage and resistance of transistor and diode, or `channel_resistance` alone";
-            found.push(wrong(at, "the lines of the semiconductors are incomplete or stated twice", help));
+            found.push(wrong(
+                at,
+                "the lines of the semiconductors are incomplete or stated twice",
+                help,
+            ));
             None
         }
     };
@@ -277,7 +301,11 @@ fn checks(
     let contains_inverter = entry.contains.contains(&Contained::Inverter);
     if contains_inverter && entry.inverter.is_some() {
         let message = "the map contains the inverter, so its losses would be counted twice";
-        found.push(wrong(format!("{path}.inverter"), message, "delete `inverter`, or `inverter` under `contains`"));
+        found.push(wrong(
+            format!("{path}.inverter"),
+            message,
+            "delete `inverter`, or `inverter` under `contains`",
+        ));
     }
     if entry.rotor.is_some() != entry.stator.is_some() {
         let message = "only one of `rotor` and `stator` is stated";
@@ -285,7 +313,11 @@ fn checks(
     }
     if entry.idle == IdleEntry::Energised && !entry.freewheel.is_empty() {
         let message = "`freewheel` belongs to `idle: off`";
-        found.push(wrong(format!("{path}.freewheel"), message, "write `idle: off`, or delete it"));
+        found.push(wrong(
+            format!("{path}.freewheel"),
+            message,
+            "write `idle: off`, or delete it",
+        ));
     }
     if let Some(envelope) = &entry.envelope {
         let at = format!("{path}.envelope");
@@ -305,7 +337,11 @@ fn checks(
         }
         if envelope.voltage.is_some() && entry.voltage.is_none() {
             let message = "the voltage of the DC link is not known";
-            found.push(wrong(format!("{at}.voltage"), message, "add `voltage: 400 V` to the machine"));
+            found.push(wrong(
+                format!("{at}.voltage"),
+                message,
+                "add `voltage: 400 V` to the machine",
+            ));
         }
     }
     if entry.winding.is_some() && entry.efficiency.is_some() {
@@ -349,13 +385,17 @@ fn checks(
         );
     }
     let shaft = around.shafts.get(&entry.port);
-    let twice = around.counted.iter().filter(|(of, ..)| shaft.is_some_and(|shaft| shaft == of));
+    let twice = around
+        .counted
+        .iter()
+        .filter(|(of, ..)| shaft.is_some_and(|shaft| shaft == of));
     for (_, counted, what) in twice.filter(|(.., what)| entry.contains.contains(what)) {
         let (word, key) = match what {
             Contained::Bearings => ("bearings", "bearings"),
             _ => ("windage", "windage"),
         };
-        let message = format!("the map contains the {word} of the rotor, and `{counted}` on its shaft has a loss as well");
+        let message =
+            format!("the map contains the {word} of the rotor, and `{counted}` on its shaft has a loss as well");
         let help = format!("write `model: none` at `{counted}`, or delete `{key}` from `contains`");
         found.push(wrong(format!("{path}.contains"), message, &help));
     }

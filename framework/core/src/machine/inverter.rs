@@ -105,8 +105,7 @@ impl Bridge {
             Conduction::Channel(resistance) => 3.0 * resistance * phase.current * phase.current,
             Conduction::Bipolar { transistor, diode } => {
                 let branch = |[voltage, resistance]: [f64; 2], swing: f64| {
-                    voltage * peak * (1.0 / TAU + swing / 8.0)
-                        + resistance * peak * peak * (0.125 + swing / (3.0 * PI))
+                    voltage * peak * (1.0 / TAU + swing / 8.0) + resistance * peak * peak * (0.125 + swing / (3.0 * PI))
                 };
                 6.0 * (branch(transistor, swing) + branch(diode, -swing))
             }
@@ -116,9 +115,7 @@ impl Bridge {
         let frequency = e.frequency / TAU;
         let (current, voltage) = (peak / e.at_current, self.voltage / e.at_voltage);
         let switching = (e.energy_on + e.energy_off) * current * voltage.powf(e.voltage_exponent)
-            + e.energy_recovery
-                * current.powf(e.recovery_current_exponent)
-                * voltage.powf(e.recovery_voltage_exponent);
+            + e.energy_recovery * current.powf(e.recovery_current_exponent) * voltage.powf(e.recovery_voltage_exponent);
         (conduction + 6.0 * frequency / PI * switching).max(0.0) + e.auxiliary
     }
 }

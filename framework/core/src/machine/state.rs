@@ -95,7 +95,10 @@ impl Transmission {
         let node = machine.nodes.map(|[_, stator]| stator);
         let oil = self.network().map(crate::thermal::network::Network::oil);
         let winding = node.or(oil).and_then(|node| temperatures.get(node));
-        let winding = winding.or(temperatures.first()).copied().unwrap_or(self.oil_temperature);
+        let winding = winding
+            .or(temperatures.first())
+            .copied()
+            .unwrap_or(self.oil_temperature);
         let loss = machine.loss(speed, torque, winding);
         MachineState {
             speed,

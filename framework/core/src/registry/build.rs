@@ -525,7 +525,9 @@ impl<'a> Build<'a> {
 
     /// The terms of the model with these notes.
     pub(crate) fn terms_of(&self, notes: NoteBase) -> &'static [Term] {
-        self.instances.get(notes.instance()).map_or(&[], |instance| instance.entry.terms)
+        self.instances
+            .get(notes.instance())
+            .map_or(&[], |instance| instance.entry.terms)
     }
 
     /// All instances built, and the number of their note cells.

@@ -532,7 +532,9 @@ impl Models {
         // Windage of a rotor or a shaft has terms of its surfaces.
         let of_surfaces = |term: &Term| ["gap", "faces", "cylinders", "shoulders"].contains(&term.name);
         let of_rotor = |part: &PartInfo| {
-            let PartKind::Component(number) = part.kind else { return None };
+            let PartKind::Component(number) = part.kind else {
+                return None;
+            };
             let component = self.components.get(number).filter(|component| !component.off)?;
             let what = match part.mechanism {
                 Bearing::KEY => Contained::Bearings,

@@ -103,7 +103,11 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
     if let Some(heat) = &duty.heat {
         heat_text(duty, heat, page);
     }
-    for text in duty.machines.iter().flat_map(|machine| machine.cautions(duty.duration_s)) {
+    for text in duty
+        .machines
+        .iter()
+        .flat_map(|machine| machine.cautions(duty.duration_s))
+    {
         page.line(format!("  note: {text}"));
     }
     page.line(format!(

@@ -32,7 +32,9 @@ const QUANTITIES: [Quantity; 6] = [
     ("unit_loss_w", "loss of the drive unit", "W", |p| {
         p.unit_loss_w.unwrap_or_default()
     }),
-    ("system_efficiency", "efficiency of the drive unit", "%", |p| p.system_percent),
+    ("system_efficiency", "efficiency of the drive unit", "%", |p| {
+        p.system_percent
+    }),
 ];
 
 fn show(outcome: &UncertaintyOutcome, page: &mut Page) {

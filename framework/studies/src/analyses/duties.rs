@@ -253,7 +253,8 @@ impl<'a> Duties<'a> {
         let mut machines = b.transmission.active_machines(oil == OilTemperature::Network);
         let machine = machines.next().map(|machine| machine.only_in_network);
         if let Some(only_in_network) = machine
-            && self.battery.as_ref().is_some_and(|battery| battery.motor.is_some()) {
+            && self.battery.as_ref().is_some_and(|battery| battery.motor.is_some())
+        {
             let message = if only_in_network {
                 "`motor_map` of the vehicle, but the thermal network of the gearbox has a motor"
             } else {

@@ -248,8 +248,10 @@ impl Limit {
                 "write for example `most: 110 degC`",
             )),
             bounds
-                if matches!(entry.quantity, LimitedQuantity::Efficiency | LimitedQuantity::SystemEfficiency)
-                    && bounds.iter().flatten().any(|bound| !(0.0..=1.0).contains(bound)) =>
+                if matches!(
+                    entry.quantity,
+                    LimitedQuantity::Efficiency | LimitedQuantity::SystemEfficiency
+                ) && bounds.iter().flatten().any(|bound| !(0.0..=1.0).contains(bound)) =>
             {
                 let help = "write it as a number, such as `least: 0.95`";
                 Err(scope.wrong(path, "an efficiency is between 0 and 1", help))

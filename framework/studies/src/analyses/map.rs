@@ -100,7 +100,7 @@ impl Analysis for MapEntry {
             }
             (Some(grid), None) => {
                 let planned = on_grid(cx, self, grid, gearbox)?;
-                exported::check(cx, &self.export, &planned)?;
+                exported::check(cx, (&self.export, self.of), &planned)?;
                 PointsOfMap::Grid(planned)
             }
             (None, Some(points)) => PointsOfMap::List(Box::new(self.listed(cx, gearbox, points)?)),

@@ -18,8 +18,9 @@ pub struct Range {
 impl Range {
     /// `path` is the entry's place in the study.
     pub fn new(cx: &Planner<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Stopped> {
-        let wrong =
-            |message: String, help: &str| cx.wrong_as(codes::VARIED, path, format!("{}: {message}", entry.words()), help);
+        let wrong = |message: String, help: &str| {
+            cx.wrong_as(codes::VARIED, path, format!("{}: {message}", entry.words()), help)
+        };
         let together = !entry.paths.is_empty() || !entry.values.is_empty();
         let varied = match &entry.path {
             Some(own) if !together => varied(cx, path, (own, entry.tie), b)?,

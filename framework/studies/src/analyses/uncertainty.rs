@@ -293,12 +293,9 @@ const QUANTITIES: [Quantity; 6] = [
     ("oil_temperature_degc", "degC", "Oil temperature", |p| {
         Some(&p.oil_temperature_degc)
     }),
-    (
-        "unit_loss_w",
-        "W",
-        "Losses of gearbox, machines and inverters",
-        |p| p.unit_loss_w.as_ref(),
-    ),
+    ("unit_loss_w", "W", "Losses of gearbox, machines and inverters", |p| {
+        p.unit_loss_w.as_ref()
+    }),
     (
         "system_efficiency",
         "-",

@@ -293,7 +293,14 @@ impl Moment {
 
     /// Difference of both, relative to the largest of them.
     fn residual(&self) -> f64 {
-        let parts = [self.shaft, self.wheels, self.brakes, self.motor, self.auxiliaries, self.loss];
+        let parts = [
+            self.shaft,
+            self.wheels,
+            self.brakes,
+            self.motor,
+            self.auxiliaries,
+            self.loss,
+        ];
         let largest = parts.iter().fold(f64::MIN_POSITIVE, |most, part| most.max(part.abs()));
         (self.electric() - self.sum()).abs() / largest
     }
@@ -389,7 +396,10 @@ impl Battery {
             ideal.add(shaft - avoidable + other, time);
             let (wheels, loss) = self.wheels(stretch, shaft, loss);
             // Torques that change within the interval: the brakes take what leaves the transmission beyond the demand.
-            let brakes = match stretch.wheels.filter(|_| self.fixed_efficiency.is_none() && !machines.is_empty()) {
+            let brakes = match stretch
+                .wheels
+                .filter(|_| self.fixed_efficiency.is_none() && !machines.is_empty())
+            {
                 Some(at_end) if stretch.brakes > 0.0 => stretch.brakes + (wheels - at_end),
                 _ => stretch.brakes,
             };

@@ -158,7 +158,9 @@ impl Written<'_> {
                 }
                 return Ok(Identifiable {
                     unit: varied.unit,
-                    stated: varied.start().filter(|start| (varied.range[0]..=varied.range[1]).contains(start)),
+                    stated: varied
+                        .start()
+                        .filter(|start| (varied.range[0]..=varied.range[1]).contains(start)),
                     range: varied.range,
                     target: Target::Path(varied),
                 });

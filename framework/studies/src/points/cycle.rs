@@ -526,9 +526,7 @@ fn most_torque(t: &Transmission, speed: f64) -> f64 {
 /// vehicle \[m/s\]. \[Nm\]
 fn supplied(t: &Transmission, vehicle: &Vehicle, torque: f64, [port_speed, vehicle_speed]: [f64; 2]) -> f64 {
     let most = most_torque(t, port_speed);
-    vehicle
-        .regained(torque, port_speed, vehicle_speed)
-        .clamp(-most, most)
+    vehicle.regained(torque, port_speed, vehicle_speed).clamp(-most, most)
 }
 
 /// Refuses a cycle in which a machine whose envelope must be kept exceeds it.

@@ -387,7 +387,11 @@ impl<'a> Solver<'a> {
             return;
         };
         let alone = [oil];
-        let temperatures = if point.nodes.is_empty() { &alone[..] } else { &point.nodes };
+        let temperatures = if point.nodes.is_empty() {
+            &alone[..]
+        } else {
+            &point.nodes
+        };
         let all = self.transmission.machines().iter().zip(&point.machines);
         let active = all.filter(|(machine, _)| !machine.only_in_network || temperatures.len() > 1);
         let lose = |(machine, state): (&Arc<Machine>, &MachineState)| {

@@ -72,6 +72,26 @@ impl UnitPoint {
         },
     ];
 
+    /// From the values of the columns; `None` without a power of the DC link.
+    pub fn of_columns(values: [Option<f64>; 5]) -> Option<Self> {
+        let [
+            dc_power_w,
+            machine_loss_w,
+            inverter_loss_w,
+            unit_loss_w,
+            system_efficiency,
+        ] = values;
+        Some(Self {
+            dc_power_w: dc_power_w?,
+            machine_loss_w: machine_loss_w?,
+            inverter_loss_w: inverter_loss_w?,
+            unit_loss_w: unit_loss_w?,
+            system_efficiency,
+            reached: Reached::Continuous,
+            outside: false,
+        })
+    }
+
     /// The columns, none without machines.
     pub fn columns(has_machines: bool) -> &'static [UnitColumn] {
         if has_machines { &Self::COLUMNS } else { &[] }
@@ -144,6 +164,11 @@ mod tests {
         assert_eq!(brakes.dc_power_w, -900.0);
         assert_eq!(brakes.system_efficiency, Some(900.0 / 1100.0));
         // Losses eat what comes back: no power passes.
-        assert_eq!(UnitPoint::new(&[state(-1.0, 160.0, 40.0)], 100.0).unwrap().system_efficiency, None);
+        assert_eq!(
+            UnitPoint::new(&[state(-1.0, 160.0, 40.0)], 100.0)
+                .unwrap()
+                .system_efficiency,
+            None
+        );
     }
 }

@@ -130,7 +130,10 @@ fn range(name: &str, whole: &Value) -> Result<Value, Diagnostic> {
         return Err(Diagnostic::error("", message).help("write the quantity with its own range"));
     }
     // Rows are a range of their own.
-    let rows = whole.get("values").and_then(Value::as_array).is_some_and(|rows| !rows.is_empty());
+    let rows = whole
+        .get("values")
+        .and_then(Value::as_array)
+        .is_some_and(|rows| !rows.is_empty());
     if !rows && !(stated("from") && stated("to")) {
         let message = format!("the parameter `{name}` states no range");
         return Err(Diagnostic::error("", message).help(format!("give `parameters.{name}` both `from` and `to`")));

@@ -9,9 +9,9 @@ use crate::description::network::{ExchangerEntry, LinkEntry, NetworkEntry};
 use crate::description::{GearboxEntry, NetworkChoice};
 use crate::document::Diagnostic;
 use crate::lubricant::Lubricant;
+use crate::machine::Machine;
 use crate::mechanism::heat_dissipation::HousingPart;
 use crate::mechanism::heat_link::{GearShape, HeatLink, HeatLinkPart};
-use crate::machine::Machine;
 use crate::registry::Build;
 use crate::transmission::{AMBIENT, GearSeat, NodeNames};
 

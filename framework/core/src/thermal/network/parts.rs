@@ -5,9 +5,9 @@ use std::sync::Arc;
 use super::faults;
 use crate::document::Diagnostic;
 use crate::lubricant::Lubricant;
+use crate::machine::Machine;
 use crate::mechanism::Slot;
 use crate::mechanism::heat_link::{HeatLink, HeatLinkPart};
-use crate::machine::Machine;
 use crate::thermal::Arrangement;
 use crate::transmission::HeatPath;
 

@@ -74,7 +74,10 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             page.careful
                 .push(format!("{of} ends at {} s: {}", short(broken.time_s), broken.reason));
         }
-        let cautions = duty.machines.iter().flat_map(|machine| machine.cautions(duty.duration_s));
+        let cautions = duty
+            .machines
+            .iter()
+            .flat_map(|machine| machine.cautions(duty.duration_s));
         let cautions: Vec<String> = cautions.map(|text| format!("{of}: {text}")).collect();
         page.careful.extend(cautions);
     }

@@ -6,9 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::analyses::numbers::{RPM, tidy};
-use crate::codes;
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::{Built, Engine, Head, Outcome, Plan, Planner, Run, Runs, Stopped, Work};
+use crate::codes;
 use crate::points::{Given, GridResult, Note, PointResult, Points, TotalLoss, notes_with_shares};
 use crate::study::By;
 use crate::table::Table;

@@ -52,7 +52,9 @@ impl MachineOfDuty {
     /// The machines of a simulated cycle, in the order of the gearbox.
     pub fn all(t: &Transmission, driven: &Driven) -> Vec<Self> {
         let machines = t.active_machines(driven.start.len() > 1).enumerate();
-        machines.map(|(i, machine)| Self::new(t, (i, machine), driven)).collect()
+        machines
+            .map(|(i, machine)| Self::new(t, (i, machine), driven))
+            .collect()
     }
 
     fn new(t: &Transmission, (i, machine): (usize, &Machine), driven: &Driven) -> Self {
@@ -113,7 +115,10 @@ impl MachineOfDuty {
                     at.speed_rpm
                 ));
                 if at.torque_beyond_nm > 0.0 {
-                    text.push_str(&format!(", {:.1} Nm above its largest torque there", at.torque_beyond_nm));
+                    text.push_str(&format!(
+                        ", {:.1} Nm above its largest torque there",
+                        at.torque_beyond_nm
+                    ));
                 }
                 if at.speed_beyond_rpm > 0.0 {
                     text.push_str(&format!(", {:.0} rpm above its largest speed", at.speed_beyond_rpm));

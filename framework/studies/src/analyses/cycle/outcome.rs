@@ -8,9 +8,9 @@ use serde::Serialize;
 
 use super::CycleExport;
 use super::bearings::BearingLoads;
+use super::machines::MachineOfDuty;
 use super::ratings::RatedOverTime;
 use super::tables::NetworkTables;
-use super::machines::MachineOfDuty;
 use crate::analyses::Head;
 use crate::duty::Consumption;
 use crate::points::Note;

@@ -72,7 +72,9 @@ impl Limit {
             }
             Owner::Unit => {
                 let moments = driven.iter().flat_map(|cycle| &cycle.stretches);
-                let moments = moments.map(|stretch| &stretch.heats).filter(|heats| heats.duration > 0.0);
+                let moments = moments
+                    .map(|stretch| &stretch.heats)
+                    .filter(|heats| heats.duration > 0.0);
                 Some(self.worst(moments.map(|heats| self.of_unit(heats))))
             }
             Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),

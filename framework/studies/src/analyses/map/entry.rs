@@ -89,7 +89,10 @@ impl MapOf {
         let unit = point.unit();
         let (efficiency, loss) = match self {
             Self::Gearbox => return [point.efficiency, point.loss, point.loss_torque],
-            Self::Unit => (unit.and_then(|unit| unit.system_efficiency), unit.map(|unit| unit.unit_loss_w)),
+            Self::Unit => (
+                unit.and_then(|unit| unit.system_efficiency),
+                unit.map(|unit| unit.unit_loss_w),
+            ),
             Self::Machine => (
                 unit.and_then(|unit| unit.machine_efficiency()),
                 unit.map(|unit| unit.machine_loss_w + unit.inverter_loss_w),

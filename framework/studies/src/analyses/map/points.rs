@@ -14,7 +14,7 @@ use super::super::Run;
 use super::super::limits::at_points::LimitColumn;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
-use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss, UnitColumn, UnitPoint};
+use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss, UnitPoint};
 use crate::table::{Column, Table, Values};
 
 /// Columns of a point from its torque to the first sum.
@@ -222,9 +222,9 @@ pub struct MapPoint<'a> {
     sums_w: Option<Sums>,
     /// Losses of the components, in order. [W]
     parts_w: Vec<Option<f64>>,
-    /// Quantities of the drive unit, by name; absent without machines. [W and -]
-    #[serde(skip_serializing_if = "Ordered::is_empty")]
-    unit: Ordered<Option<f64>>,
+    /// The drive unit; absent without machines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<UnitPoint>,
     /// Limited quantities, by the names of the limits; absent if the study has none at points.
     #[serde(skip_serializing_if = "Ordered::is_empty")]
     limit_values: Ordered<Option<f64>>,
@@ -281,15 +281,16 @@ impl MapPoints {
     }
 
     /// The quantities of the drive unit, whose columns precede those of the limits.
-    fn unit(&self, row: usize) -> Ordered<Option<f64>> {
-        let columns = UnitPoint::columns(self.has_unit);
-        let first = self.table.columns.len() - self.limits.len() - columns.len();
-        let value = |(i, column): (usize, &UnitColumn)| {
-            let numbers = self.table.columns[first + i].numbers();
-            let number = numbers.map(|numbers| numbers[row]).filter(|x| !x.is_nan());
-            (column.name.to_owned(), number)
+    fn unit(&self, row: usize) -> Option<UnitPoint> {
+        if !self.has_unit {
+            return None;
+        }
+        let first = self.table.columns.len() - self.limits.len() - UnitPoint::COLUMNS.len();
+        let value = |i: usize| {
+            let numbers = self.table.columns[first + i].numbers()?;
+            Some(numbers[row]).filter(|x| !x.is_nan())
         };
-        Ordered(columns.iter().enumerate().map(value).collect())
+        UnitPoint::of_columns([value(0), value(1), value(2), value(3), value(4)])
     }
 
     fn sums(&self, row: usize) -> Option<Sums> {

@@ -108,7 +108,8 @@ impl Cells {
     fn at(&self) -> (f64, [f64; 2]) {
         let list = &self.entry.over_charge;
         let charges: Vec<f64> = list.iter().map(|at| at.charge).collect();
-        let of = |value: fn(&CellAt) -> f64| clamped(&charges, &list.iter().map(value).collect::<Vec<_>>(), self.charge);
+        let of =
+            |value: fn(&CellAt) -> f64| clamped(&charges, &list.iter().map(value).collect::<Vec<_>>(), self.charge);
         let charging = of(|at| at.charge_resistance.unwrap_or(at.resistance));
         (of(|at| at.voltage), [of(|at| at.resistance), charging])
     }
@@ -125,7 +126,10 @@ impl Cells {
         let wanted = energy / time;
         let (voltage, [discharging, charging]) = self.at();
         let resistance = if wanted > 0.0 { discharging } else { charging };
-        let power = wanted.clamp(self.least_power(voltage, charging), self.greatest_power(voltage, discharging));
+        let power = wanted.clamp(
+            self.least_power(voltage, charging),
+            self.greatest_power(voltage, discharging),
+        );
         // Where the power is the greatest possible, rounding may leave a negative number.
         let root = (voltage * voltage - 4.0 * resistance * power).max(0.0).sqrt();
         let current = 2.0 * power / (voltage + root);
@@ -184,7 +188,10 @@ mod tests {
     }
 
     fn close(value: f64, expected: f64) {
-        assert!((value - expected).abs() <= 1e-8 * expected.abs(), "{value} is not {expected}");
+        assert!(
+            (value - expected).abs() <= 1e-8 * expected.abs(),
+            "{value} is not {expected}"
+        );
     }
 
     /// Checks of the compendium of drive units, section C.
