@@ -40,7 +40,8 @@ pub(crate) fn machines(
         let path = format!("machines.{id}");
         let before = found.len();
         let built = machine_of(&path, machine, around, found);
-        checks(&path, machine, around, found, warnings);
+        let map = built.as_ref().and_then(Machine::map);
+        checks(&path, (machine, map), around, found, warnings);
         if let Some(built) = built.filter(|_| found.len() == before) {
             if let Some(other) = all.iter().find(|other| other.port == built.port) {
                 let message = format!("`{}` is already at port `{}`", other.path, machine.port);
@@ -293,7 +294,7 @@ fn bridge_of(
 /// Refuses what contradicts itself or would be counted twice, and warns about what is missing from the sums.
 fn checks(
     path: &str,
-    entry: &MachineEntry,
+    (entry, map): (&MachineEntry, Option<&MotorMap>),
     around: Around<'_>,
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
@@ -348,10 +349,7 @@ fn checks(
         let message = "`winding` belongs to a map";
         found.push(wrong(format!("{path}.winding"), message, "delete it"));
     }
-    if let Some(file) = &entry.map
-        && let Ok(bytes) = around.files.bytes(file.name())
-        && let Ok(map) = MotorMap::read_stated(file, &bytes)
-    {
+    if let Some(map) = map {
         if entry.winding.is_some() && map.has_temperatures() {
             let message = "the map states the losses at several temperatures";
             found.push(wrong(format!("{path}.winding"), message, "delete `winding`"));
