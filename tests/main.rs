@@ -45,6 +45,7 @@ mod library;
 mod limits;
 mod locked;
 mod lsp;
+mod machines;
 mod measured;
 mod measured_formats;
 mod mistakes;

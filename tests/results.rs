@@ -21,8 +21,8 @@ const STUDIES: [&str; 4] = [
 ];
 
 /// Records of rare results, which no study here has: a minimum at a kink, whose contents are tested with the models that make it,
-/// and a duty that breaks off.
-const RARE: [&str; 2] = ["KinkOfModel", "BrokenOff"];
+/// a duty that breaks off, and one that leaves the map of a machine.
+const RARE: [&str; 3] = ["KinkOfModel", "BrokenOff", "OutsideMap"];
 
 /// Objects whose keys are the user's, or a model's.
 const OPEN: [&str; 7] = [
@@ -36,8 +36,13 @@ const OPEN: [&str; 7] = [
 ];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 22] = [
+const OPTIONAL: [&str; 27] = [
     "mesh_load",
+    "of",
+    "unit",
+    "machines",
+    "unit_loss_w",
+    "system_efficiency",
     "crossed_stages",
     "lengthwise_sliding_m_s",
     "data",

@@ -104,6 +104,18 @@ class Solution:
         """State of the transmission, such as ``drive``."""
 
     @property
+    def dc_power(self) -> float | None:
+        """Power out of the DC link into the machines in W; `None` without machines."""
+
+    @property
+    def unit_loss(self) -> float | None:
+        """Losses of gearbox, machines and inverters in W; `None` without machines."""
+
+    @property
+    def system_efficiency(self) -> float | None:
+        """Power at the other ports over the power of the DC link; `None` without machines."""
+
+    @property
     def parts(self) -> dict[str, float]:
         """Loss of each component in W, by path; empty if the point has no value."""
 

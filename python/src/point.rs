@@ -140,6 +140,15 @@ pub struct Solution {
     /// State of the transmission, such as `drive`.
     #[pyo3(get)]
     status: &'static str,
+    /// Power out of the DC link in W; `None` without machines.
+    #[pyo3(get)]
+    dc_power: Option<f64>,
+    /// Losses of gearbox, machines and inverters in W; `None` without machines.
+    #[pyo3(get)]
+    unit_loss: Option<f64>,
+    /// Power at the other ports over the power of the DC link; `None` without machines.
+    #[pyo3(get)]
+    system_efficiency: Option<f64>,
     watts: Vec<f64>,
 }
 
@@ -148,11 +157,8 @@ impl Solution {
         let t = transmission.get();
         let prepared = prepared(py, t, request)?;
         let mut scratch = t.built.scratch(&prepared.case);
-        let point = prepared.point();
-        let found = prepared.oil.find(&t.built, &prepared.case, &point, &mut scratch);
-        let solution = t
-            .built
-            .evaluate(&prepared.case, &point, found.temperatures(), &mut scratch);
+        let solved = prepared.solve(&t.built, &mut scratch);
+        let (solution, found, unit) = (&solved.solution, &solved.found, solved.unit());
         let sound = found.is_sound() && solution.has_flow();
         let point = Self {
             loss: solution.loss().filter(|_| sound),
@@ -160,6 +166,9 @@ impl Solution {
             oil_temperature: Some(found.oil).filter(|_| found.is_sound()),
             balance: found.outcome().map(Outcome::name),
             status: solution.status().name(),
+            dc_power: unit.map(|unit| unit.dc_power_w),
+            unit_loss: unit.map(|unit| unit.unit_loss_w),
+            system_efficiency: unit.and_then(|unit| unit.system_efficiency),
             watts: solution
                 .parts()
                 .map(|(_, loss)| loss.watts())

@@ -2,11 +2,11 @@
 
 use std::sync::atomic::Ordering;
 
-use gearloss::api::{self, Field, Points};
+use gearloss::api::{self, Field, OilTemperature, Points};
 use gearloss::framework::flow::Status;
 use gearloss::framework::thermal::Outcome;
 use gearloss::studies::analyses::numbers::{RPM, tidy};
-use gearloss::studies::points::{Numbered, Piece, SUMS, solve_pieces};
+use gearloss::studies::points::{Numbered, Piece, SUMS, UnitColumn, UnitPoint, solve_pieces};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 
@@ -135,10 +135,16 @@ pub fn solve(py: Python<'_>, t: &Transmission, field: Field, oil: Option<f64>, g
         points.speed_at = vec![port];
     }
     let parts = if given.parts { t.built.parts() } else { &[] };
-    let count = NUMBERS.len() + SUMS.len() + parts.len();
+    let has_machines = t
+        .built
+        .active_machines(points.oil == OilTemperature::Network)
+        .next()
+        .is_some();
+    let unit_columns = UnitPoint::columns(has_machines);
+    let count = NUMBERS.len() + SUMS.len() + parts.len() + unit_columns.len();
     let transmission = &t.built;
     let solved = work::run(py, |stop| {
-        let make = |piece: &mut Numbered<'_>| numbers(piece, count, parts.len());
+        let make = |piece: &mut Numbered<'_>| numbers(piece, (count, unit_columns), parts.len());
         let pieces: Vec<usize> = (0..points.field.pieces()).collect();
         let mut all = Numbers {
             columns: vec![Vec::with_capacity(points.field.len()); count],
@@ -162,7 +168,11 @@ pub fn solve(py: Python<'_>, t: &Transmission, field: Field, oil: Option<f64>, g
     let of_points = NUMBERS
         .iter()
         .map(|(name, unit, meaning)| ((*name).to_owned(), *unit, (*meaning).to_owned()));
-    for ((name, unit, meaning), values) in of_points.chain(sums).chain(parts).zip(all.columns) {
+    let of_unit = unit_columns
+        .iter()
+        .map(|column| (column.name.to_owned(), column.unit, column.meaning.to_owned()));
+    let names = of_points.chain(sums).chain(parts).chain(of_unit);
+    for ((name, unit, meaning), values) in names.zip(all.columns) {
         columns.push(Column::numbers(py, name, unit, meaning, values)?);
     }
     let states = all.states.iter().map(|(status, _)| Some(status.name()));
@@ -174,7 +184,7 @@ pub fn solve(py: Python<'_>, t: &Transmission, field: Field, oil: Option<f64>, g
 }
 
 /// The numbers of some points.
-fn numbers(points: &mut Numbered<'_>, count: usize, parts: usize) -> Numbers {
+fn numbers(points: &mut Numbered<'_>, (count, unit_columns): (usize, &[UnitColumn]), parts: usize) -> Numbers {
     let mut all = Numbers {
         columns: vec![Vec::with_capacity(points.len()); count],
         states: Vec::with_capacity(points.len()),
@@ -194,7 +204,12 @@ fn numbers(points: &mut Numbered<'_>, count: usize, parts: usize) -> Numbers {
         ];
         let watts = point.sums.iter().chain(&point.parts[..parts]);
         let watts = watts.map(|watts| if solved { *watts } else { f64::NAN });
-        for (column, x) in all.columns.iter_mut().zip(numbers_of_point.into_iter().chain(watts)) {
+        let unit = point.unit();
+        let of_unit = unit_columns
+            .iter()
+            .map(|column| value(unit.as_ref().and_then(column.read)));
+        let all_numbers = numbers_of_point.into_iter().chain(watts).chain(of_unit);
+        for (column, x) in all.columns.iter_mut().zip(all_numbers) {
             column.push(x);
         }
         all.states.push((point.status, point.balance));

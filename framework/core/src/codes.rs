@@ -89,6 +89,9 @@ gearloss_document::codes! {
     JOINT = "E0334", "invalid joint",
         cause: "A joint names the same shaft on both sides.",
         help: "Name the shafts on both sides of the joint.";
+    MACHINE = "E0345", "contradictory electric machine",
+        cause: "A machine or its inverter has no losses, states them twice, or contains what the gearbox describes as well, so that it would be counted twice.",
+        help: "Correct the key that the message names; `contains` lists what the loss map of the machine includes.";
     LOAD_SHARING = "E0350", "load sharing that a mesh cannot have",
         cause: "A load sharing is not defined for the geometry of its mesh, or a modification of a flank does not fit the path of contact.",
         help: "Correct the modification, or choose another load sharing.";
@@ -163,6 +166,9 @@ gearloss_document::codes! {
     CHAIN_DOUBTFUL = "W0332", "doubtful chain or belt",
         cause: "The slack strand of a chain sags more than usual, or the forces of a belt on its shafts are not known.",
         help: "Correct the number of links, or state the forces under `loads` of the shafts.";
+    MACHINE_DOUBTFUL = "W0345", "losses of a machine may be incomplete",
+        cause: "No inverter is described or contained in the loss map, or the temperature of the winding is not known.",
+        help: "Describe what is missing, or accept that the oil's temperature is used and that the inverter is in no sum.";
     SHARES_COARSE = "W0350", "load sharing between its knots is not accurate",
         cause: "Between the loads at which the shares of the teeth are calculated, the loss factor is interpolated with a noticeable error.",
         help: "State more `phases` or `slices`, or a modification that opens less of the flanks.";

@@ -20,6 +20,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+pub use crate::machine::MachineEntry;
 pub use bevel_teeth::{BevelAxes, BevelFault, BevelPair, BevelTeeth};
 pub use chains::{ChainEntry, JointEntry};
 pub use crossed::{
@@ -119,6 +120,9 @@ pub struct GearboxEntry {
     pub housing: HousingEntry,
     /// Pumps, pipes and nozzles: flows and pressures of the oil.
     pub oil_network: Option<OilNetworkEntry>,
+    /// Electric machines at ports, with their inverters.
+    #[serde(default)]
+    pub machines: Ordered<MachineEntry>,
     /// Operating temperature.
     #[serde(default)]
     pub thermal: Thermal,
@@ -200,6 +204,7 @@ impl GearboxEntry {
             "differentials" => entry_again(&mut self.differentials, section_value, id),
             "chains" => entry_again(&mut self.chains, section_value, id),
             "joints" => entry_again(&mut self.joints, section_value, id),
+            "machines" => entry_again(&mut self.machines, section_value, id),
             "lubricants" => entry_again(&mut self.lubricants, section_value, id),
             "housing" => {
                 self.housing = HousingEntry::deserialize(section_value)?;

@@ -312,6 +312,16 @@ impl Language {
         }
     }
 
+    /// Whether a resolved document has a whole number at a path, such as a number of teeth.
+    pub fn is_whole_at(&self, document: &Value, path: &str) -> bool {
+        let is_whole = |shape: &Shape| matches!(shape, Shape::Number { whole: true, .. });
+        match self.shape_at(document, path) {
+            Some(Shape::Either(shapes)) => shapes.iter().any(is_whole),
+            Some(shape) => is_whole(shape),
+            None => false,
+        }
+    }
+
     /// The published value of the coefficient of a model's formula that a resolved document has at a path; `None` if the path is
     /// not a coefficient.
     pub fn published_coefficient(&self, document: &Value, path: &str) -> Option<f64> {

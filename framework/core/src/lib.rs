@@ -88,6 +88,7 @@ pub mod geometry;
 pub mod hydraulics;
 pub mod immersion;
 pub mod lubricant;
+pub mod machine;
 pub mod motor;
 pub mod real;
 pub mod rolling;

@@ -89,11 +89,35 @@ impl RotorShare {
 pub struct MotorLoss {
     /// \[W\]
     pub loss: f64,
-    /// True if speed, torque or temperature is outside the map, whose end value is then used.
+    /// True if speed, torque, temperature or voltage is outside the map, whose end value is then used.
     pub outside: bool,
 }
 
-/// Losses over speed, torque and, if the file has it, temperature.
+/// A state of a motor: where a map is read.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MotorAt {
+    /// \[rad/s\]
+    pub speed: f64,
+    /// \[Nm\]
+    pub torque: f64,
+    /// Of the windings. \[degC\]
+    pub temperature: f64,
+    /// Of the DC link. \[V\]
+    pub voltage: f64,
+}
+
+/// What the inverter carries, read from a map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PhaseCurrent {
+    /// Root mean square of a phase. \[A\]
+    pub current: f64,
+    /// Cosine of the phase angle: negative while the motor generates. \[-\]
+    pub power_factor: f64,
+    /// Twice the amplitude of the phase voltage over the DC voltage. \[-\]
+    pub modulation: f64,
+}
+
+/// Losses over speed, torque and, if the file has them, temperature and DC voltage.
 ///
 /// The loss is interpolated, not the efficiency, which is undefined without power. Motoring and generating share the nodes at zero
 /// torque, so that the loss is continuous there. Where no row has zero torque, as in a map of efficiencies, it is linear between the
@@ -105,6 +129,8 @@ pub struct MotorMap {
     motoring: Quadrant,
     /// `None`: generating has the losses of motoring at the same torque.
     generating: Option<Quadrant>,
+    /// Current, power factor and modulation, if the file has them, motoring and generating.
+    phase: Option<[[Quadrant; 3]; 2]>,
     /// How the file was interpreted, in sentences.
     pub notes: Vec<String>,
 }
@@ -117,6 +143,8 @@ struct Quadrant {
     reach: (Vec<f64>, Vec<f64>),
     /// First and last temperature, if the file has several.
     temperatures: Option<(f64, f64)>,
+    /// First and last voltage, if the file has several.
+    voltages: Option<(f64, f64)>,
 }
 
 /// One row; magnitude of the torque.
@@ -126,7 +154,10 @@ struct Node {
     speed: f64,
     torque: f64,
     temperature: f64,
+    voltage: f64,
     loss: f64,
+    /// Current, power factor and modulation; zero if the file has none.
+    phase: [f64; 3],
 }
 
 const SPEED: usize = 0;
@@ -134,13 +165,19 @@ const TORQUE: usize = 1;
 const EFFICIENCY: usize = 2;
 const LOSS: usize = 3;
 const TEMPERATURE: usize = 4;
+const VOLTAGE: usize = 5;
+const PHASE: [usize; 3] = [6, 7, 8];
 
-const QUANTITIES: [Wanted; 5] = [
+const QUANTITIES: [Wanted; 9] = [
     ("speed", "rpm"),
     ("torque", "Nm"),
     ("efficiency", "-"),
     ("loss", "W"),
     ("temperature", "degC"),
+    ("voltage", "V"),
+    ("current", "A"),
+    ("power_factor", "-"),
+    ("modulation", "-"),
 ];
 
 /// Fix for a wrong header.
@@ -151,7 +188,7 @@ const LEAST_FILLED: f64 = 0.3;
 
 impl MotorMap {
     /// Reads the bytes of a CSV file, a workbook or an MDF file: `speed [rpm]`, `torque [Nm]`, `efficiency [-]` or `loss [W]`, and optionally `temperature
-    /// [degC]`. If both are given, the loss is used. Rows with an efficiency and without speed or torque carry no information and
+    /// [degC]`, `voltage [V]` of the DC link, and `current [A]` (root mean square), `power_factor [-]` and `modulation [-]` of the inverter. If both are given, the loss is used. Rows with an efficiency and without speed or torque carry no information and
     /// are skipped.
     ///
     /// # Errors
@@ -183,6 +220,15 @@ impl MotorMap {
         }
         if !sheet.holds(EFFICIENCY) && !sheet.holds(LOSS) {
             lacks.push(lacking(sheet, "the efficiency or the loss"));
+        }
+        let of_phase = PHASE.iter().filter(|place| sheet.holds(**place)).count();
+        if of_phase > 0 && of_phase < PHASE.len() {
+            let what = ["the current", "the power factor", "the modulation"];
+            let missing = PHASE.iter().zip(what).filter(|(place, _)| !sheet.holds(**place));
+            lacks.extend(missing.map(|(_, what)| {
+                let help = "state `current [A]`, `power_factor [-]` and `modulation [-]`, or none of them";
+                fault(sheet.lacks(what, "").message, help)
+            }));
         }
         if !lacks.is_empty() {
             return Err(lacks);
@@ -226,8 +272,25 @@ impl MotorMap {
             motoring.extend(&between);
             generating.extend(&between);
         }
-        let quadrant = |nodes: &[Node], what: &str| Quadrant::from_nodes(nodes, what).map_err(|f| vec![f]);
+        let of = |nodes: &[Node], what: &str, value: fn(&Node) -> f64| {
+            Quadrant::from_nodes(nodes, what, value).map_err(|f| vec![f])
+        };
+        let quadrant = |nodes: &[Node], what: &str| of(nodes, what, |node| node.loss);
+        let phase = if of_phase == 0 {
+            None
+        } else {
+            let both = |nodes: &[Node], what: &str| -> Result<[Quadrant; 3], Vec<MeasuredFault>> {
+                Ok([
+                    of(nodes, what, |node| node.phase[0])?,
+                    of(nodes, what, |node| node.phase[1])?,
+                    of(nodes, what, |node| node.phase[2])?,
+                ])
+            };
+            let own = if generating.is_empty() { &motoring } else { &generating };
+            Some([both(&motoring, "motoring")?, both(own, "generating")?])
+        };
         Ok(Self {
+            phase,
             motoring: quadrant(&motoring, "motoring")?,
             generating: if generating.is_empty() {
                 None
@@ -241,19 +304,69 @@ impl MotorMap {
     /// The loss at a speed \[rad/s\], a torque \[Nm\] and a temperature \[degC\], which a map without temperatures ignores. Torque
     /// against the speed is generating. In a map with temperatures each quadrant uses those of its own rows.
     pub fn loss(&self, speed: f64, torque: f64, temperature: f64) -> MotorLoss {
-        if speed == 0.0 && torque == 0.0 {
+        self.loss_at(&MotorAt {
+            speed,
+            torque,
+            temperature,
+            voltage: self.any_voltage(),
+        })
+    }
+
+    /// As [`MotorMap::loss`], also at a DC voltage, which a map without voltages ignores.
+    pub fn loss_at(&self, at: &MotorAt) -> MotorLoss {
+        if at.speed == 0.0 && at.torque == 0.0 {
             return MotorLoss {
                 loss: 0.0,
                 outside: false,
             };
         }
-        let generating = speed * torque < 0.0;
+        let generating = at.speed * at.torque < 0.0;
         let quadrant = self
             .generating
             .as_ref()
             .filter(|_| generating)
             .unwrap_or(&self.motoring);
-        quadrant.loss(speed.abs(), torque.abs(), temperature)
+        quadrant.loss(at)
+    }
+
+    /// Current, power factor and modulation; `None` if the file has none. The power factor has the sign of the power.
+    pub fn phase(&self, at: &MotorAt) -> Option<PhaseCurrent> {
+        let [motoring, generating] = self.phase.as_ref()?;
+        let generates = at.speed * at.torque < 0.0;
+        let [current, power_factor, modulation] = if generates { generating } else { motoring };
+        let power_factor = power_factor.loss(at).loss.abs();
+        Some(PhaseCurrent {
+            current: current.loss(at).loss,
+            power_factor: if generates { -power_factor } else { power_factor },
+            modulation: modulation.loss(at).loss,
+        })
+    }
+
+    /// True if the file states current, power factor and modulation.
+    pub fn has_phase(&self) -> bool {
+        self.phase.is_some()
+    }
+
+    /// True if the file has several temperatures.
+    pub fn has_temperatures(&self) -> bool {
+        self.motoring.temperatures.is_some()
+    }
+
+    /// First and last DC voltage, if the file has several. \[V\]
+    pub fn voltages(&self) -> Option<(f64, f64)> {
+        self.motoring.voltages
+    }
+
+    /// Voltage of a map that ignores it, or the first.
+    fn any_voltage(&self) -> f64 {
+        self.motoring.voltages.map_or(0.0, |(first, _)| first)
+    }
+
+    /// Largest speed of the map \[rad/s\], and its largest torque at a speed in the direction of a torque \[Nm\].
+    pub fn reach(&self, speed: f64, torque: f64) -> [f64; 2] {
+        let generating = self.generating.as_ref().filter(|_| speed * torque < 0.0);
+        let (speeds, torques) = &generating.unwrap_or(&self.motoring).reach;
+        [speeds[speeds.len() - 1], clamped(speeds, torques, speed.abs())]
     }
 
     /// How far a speed \[rad/s\] and a torque \[Nm\] are outside the map, relative to its border; zero inside. \[-\]
@@ -325,7 +438,13 @@ fn node(sheet: &Sheet, row: usize) -> Result<Option<(Node, bool)>, String> {
         speed,
         torque: torque.abs(),
         temperature: sheet.number(row, TEMPERATURE)?.unwrap_or(0.0),
+        voltage: sheet.not_negative(row, VOLTAGE)?.unwrap_or(0.0),
         loss,
+        phase: [
+            sheet.not_negative(row, PHASE[0])?.unwrap_or(0.0),
+            sheet.number(row, PHASE[1])?.unwrap_or(0.0),
+            sheet.not_negative(row, PHASE[2])?.unwrap_or(0.0),
+        ],
     };
     Ok(Some((node, torque < 0.0)))
 }
@@ -348,20 +467,25 @@ fn between_signs(motoring: &[Node], generating: &[Node]) -> Vec<Node> {
     let [positive, negative] = [motoring, generating].map(smallest_torques);
     let both = positive.iter().filter_map(|(key, a)| Some((a, negative.get(key)?)));
     both.filter(|(a, _)| a.torque > 0.0)
-        .map(|(a, b)| Node {
-            torque: 0.0,
-            loss: (a.loss * b.torque + b.loss * a.torque) / (a.torque + b.torque),
-            ..**a
+        .map(|(a, b)| {
+            let between =
+                |a_value: f64, b_value: f64| (a_value * b.torque + b_value * a.torque) / (a.torque + b.torque);
+            Node {
+                torque: 0.0,
+                loss: between(a.loss, b.loss),
+                phase: std::array::from_fn(|i| between(a.phase[i].abs(), b.phase[i].abs())),
+                ..**a
+            }
         })
         .collect()
 }
 
-/// The node of the smallest torque at each speed and temperature.
-fn smallest_torques(nodes: &[Node]) -> BTreeMap<[u64; 2], &Node> {
+/// The node of the smallest torque at each speed, temperature and voltage.
+fn smallest_torques(nodes: &[Node]) -> BTreeMap<[u64; 3], &Node> {
     let mut smallest = BTreeMap::new();
     for node in nodes {
         let least = smallest
-            .entry([node.speed, node.temperature].map(f64::to_bits))
+            .entry([node.speed, node.temperature, node.voltage].map(f64::to_bits))
             .or_insert(node);
         if node.torque < least.torque {
             *least = node;
@@ -386,18 +510,26 @@ fn place(values: &[f64], x: f64) -> usize {
 }
 
 impl Quadrant {
-    fn from_nodes(nodes: &[Node], what: &str) -> Result<Self, MeasuredFault> {
+    fn from_nodes(nodes: &[Node], what: &str, value: fn(&Node) -> f64) -> Result<Self, MeasuredFault> {
         let speeds = rising(nodes.iter().map(|n| n.speed));
         let torques = rising(nodes.iter().map(|n| n.torque));
         let temperatures = rising(nodes.iter().map(|n| n.temperature));
-        let (m, k) = (torques.len(), temperatures.len());
+        let voltages = rising(nodes.iter().map(|n| n.voltage));
+        // Each temperature at each voltage is a layer; voltages vary fastest.
+        let (m, k) = (torques.len(), temperatures.len() * voltages.len());
         let count = speeds.len().saturating_mul(m).saturating_mul(k);
         if (nodes.len() as f64) < LEAST_FILLED * count as f64 {
+            let of_voltages = if voltages.len() > 1 {
+                format!(" and {} voltages", voltages.len())
+            } else {
+                String::new()
+            };
             return Err(fault(
                 format!(
-                    "the {what} part has {} rows for {} speeds, {m} torques and {k} temperatures, which is not a grid",
+                    "the {what} part has {} rows for {} speeds, {m} torques and {} temperatures{of_voltages}, which is not a grid",
                     nodes.len(),
-                    speeds.len()
+                    speeds.len(),
+                    temperatures.len()
                 ),
                 "write the same torques at each speed; omit those that the motor does not reach",
             ));
@@ -405,7 +537,8 @@ impl Quadrant {
         let mut cells: Vec<Option<Node>> = vec![None; count];
         for node in nodes {
             let (i, j) = (place(&speeds, node.speed), place(&torques, node.torque));
-            let cell = &mut cells[(i * m + j) * k + place(&temperatures, node.temperature)];
+            let layer = place(&temperatures, node.temperature) * voltages.len() + place(&voltages, node.voltage);
+            let cell = &mut cells[(i * m + j) * k + layer];
             if let Some(first) = cell {
                 return Err(fault(
                     format!(
@@ -425,13 +558,16 @@ impl Quadrant {
                 held.map_or(0.0, |j| torques[j])
             })
             .collect();
-        let values = filled(&cells, speeds.len(), m, k).map_err(|t| {
+        let values = filled(&cells, [speeds.len(), m, k], value).map_err(|layer| {
+            let temperature = temperatures[layer / voltages.len()];
+            let at_voltage = if voltages.len() > 1 {
+                format!(" and {} V", voltages[layer % voltages.len()])
+            } else {
+                String::new()
+            };
             fault(
-                format!(
-                    "the {what} part has a speed without any row at {} degC",
-                    temperatures[t]
-                ),
-                "write the same speeds at each temperature",
+                format!("the {what} part has a speed without any row at {temperature} degC{at_voltage}"),
+                "write the same speeds at each temperature and voltage",
             )
         })?;
         let axis = |name: &str, unit: &str, values: &[f64]| Axis {
@@ -440,8 +576,11 @@ impl Quadrant {
             values: values.to_vec(),
         };
         let mut axes = vec![axis("speed", "rad/s", &speeds), axis("torque", "Nm", &torques)];
-        if k > 1 {
+        if temperatures.len() > 1 {
             axes.push(axis("temperature", "degC", &temperatures));
+        }
+        if voltages.len() > 1 {
+            axes.push(axis("voltage", "V", &voltages));
         }
         let reading = Reading {
             outside: Outside::Clamp,
@@ -449,38 +588,48 @@ impl Quadrant {
             ..Reading::default()
         };
         let table = Table::from_grid(axes, values, &reading).map_err(|reason| fault(reason, "correct the map"))?;
+        let ends = |values: &[f64]| (values.len() > 1).then(|| (values[0], values[values.len() - 1]));
         Ok(Self {
             table,
             reach: (speeds, reach),
-            temperatures: (k > 1).then(|| (temperatures[0], temperatures[k - 1])),
+            temperatures: ends(&temperatures),
+            voltages: ends(&voltages),
         })
     }
 
-    fn loss(&self, speed: f64, torque: f64, temperature: f64) -> MotorLoss {
-        let point = [speed, torque, temperature];
+    fn loss(&self, at: &MotorAt) -> MotorLoss {
+        let (speed, torque) = (at.speed.abs(), at.torque.abs());
+        let mut point = [speed, torque, at.temperature, at.voltage];
+        if self.temperatures.is_none() {
+            point[2] = at.voltage;
+        }
         // A clamped table is defined at every number; NaN is treated as the start of the map.
         let loss = self.table.value(&point[..self.table.axes().len()]).unwrap_or(0.0);
         let (speeds, torques) = &self.reach;
         let beyond = |x: f64, most: f64| x > most * (1.0 + 1e-9);
+        let leaves = |ends: Option<(f64, f64)>, x: f64| ends.is_some_and(|(first, last)| x < first || x > last);
         let outside = beyond(speed, speeds[speeds.len() - 1])
             || beyond(torque, clamped(speeds, torques, speed))
-            || self
-                .temperatures
-                .is_some_and(|(first, last)| temperature < first || temperature > last);
+            || leaves(self.temperatures, at.temperature)
+            || leaves(self.voltages, at.voltage);
         MotorLoss { loss, outside }
     }
 }
 
 /// Losses of all cells. An empty cell takes the value of the nearest smaller torque at its speed and temperature, or, below all, of
-/// the nearest larger one. The fault is the index of a temperature at which a speed has no row.
-fn filled(cells: &[Option<Node>], speeds: usize, torques: usize, temperatures: usize) -> Result<Vec<f64>, usize> {
+/// the nearest larger one. The fault is the index of a layer, a temperature at a voltage, at which a speed has no row.
+fn filled(
+    cells: &[Option<Node>],
+    [speeds, torques, layers]: [usize; 3],
+    value: fn(&Node) -> f64,
+) -> Result<Vec<f64>, usize> {
     let mut values = Vec::with_capacity(cells.len());
     for i in 0..speeds {
         for j in 0..torques {
-            for t in 0..temperatures {
-                let at = |j: usize| cells[(i * torques + j) * temperatures + t];
+            for t in 0..layers {
+                let at = |j: usize| cells[(i * torques + j) * layers + t];
                 let node = (0..=j).rev().find_map(at).or_else(|| (j..torques).find_map(at));
-                values.push(node.ok_or(t)?.loss);
+                values.push(value(&node.ok_or(t)?));
             }
         }
     }

@@ -57,6 +57,7 @@ use crate::document::Diagnostic;
 use crate::hydraulics::Hydraulics;
 use crate::loads::{ShaftLoads, StaticRating};
 use crate::loss::NoteBase;
+use crate::machine::Machine;
 use crate::mechanism::Slot;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart};
 use crate::mechanism::crossed_helical_mesh::{CrossedHelicalMesh, CrossedHelicalPart};
@@ -291,6 +292,7 @@ pub struct Transmission {
     /// Design torque and speed. \[Nm and rad/s\]
     pub rating: Option<RatingEntry>,
     pub(crate) housing: Housing,
+    pub(crate) machines: Vec<Arc<Machine>>,
     pub(crate) network: Option<Network>,
 }
 
@@ -328,6 +330,10 @@ impl Transmission {
     /// Gear states, including neutral.
     pub fn states(&self) -> &[GearState] {
         &self.states
+    }
+    /// Electric machines at ports: those of `machines`, and the motors of the thermal network.
+    pub fn machines(&self) -> &[Arc<Machine>] {
+        &self.machines
     }
     /// Gears with their geometry.
     pub fn gears(&self) -> &[GearSeat] {

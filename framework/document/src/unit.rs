@@ -79,6 +79,14 @@ pub enum Dimension {
     Conductivity,
     /// Specific heat, J/(kg K).
     SpecificHeat,
+    /// Electric voltage, V.
+    Voltage,
+    /// Electric current, A.
+    Current,
+    /// Electric resistance, ohm.
+    ElectricResistance,
+    /// Electric charge, A s.
+    Charge,
 }
 
 impl Dimension {
@@ -133,6 +141,10 @@ impl Dimension {
             Self::Resistance => "thermal resistance",
             Self::Conductivity => "thermal conductivity",
             Self::SpecificHeat => "specific heat",
+            Self::Voltage => "voltage",
+            Self::Current => "current",
+            Self::ElectricResistance => "electric resistance",
+            Self::Charge => "electric charge",
         }
     }
 }
@@ -291,6 +303,12 @@ const UNITS: &[Unit] = &[
     unit("kJ/K", Dimension::HeatCapacity, 1e3),
     unit("J/(kg K)", Dimension::SpecificHeat, 1.0),
     unit("kJ/(kg K)", Dimension::SpecificHeat, 1e3),
+    unit("V", Dimension::Voltage, 1.0),
+    unit("A", Dimension::Current, 1.0),
+    unit("mohm", Dimension::ElectricResistance, 1e-3),
+    unit("ohm", Dimension::ElectricResistance, 1.0),
+    unit("Ah", Dimension::Charge, 3600.0),
+    unit("A s", Dimension::Charge, 1.0),
 ];
 
 impl Unit {

@@ -3,7 +3,7 @@
 use crate::text::last_key;
 
 /// A section of a gearbox: its key, one of its components, all of them.
-const SECTIONS: [[&str; 3]; 15] = [
+const SECTIONS: [[&str; 3]; 16] = [
     ["auxiliaries", "auxiliary", "auxiliaries"],
     ["bearings", "bearing", "bearings"],
     ["bevel_meshes", "bevel mesh", "bevel meshes"],
@@ -18,6 +18,7 @@ const SECTIONS: [[&str; 3]; 15] = [
     ["differentials", "differential", "differentials"],
     ["gears", "gear", "gears"],
     ["joints", "joint", "joints"],
+    ["machines", "machine", "machines"],
     ["meshes", "mesh", "meshes"],
     ["planetary_sets", "planetary set", "planetary sets"],
     ["seals", "seal", "seals"],

@@ -159,6 +159,10 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
             number(Some(solution.largest_power()), 2),
         ));
     }
+    if !solved.machines.is_empty() {
+        blocks.table(machines_table(solved));
+        blocks.text(&unit_text(solved));
+    }
     if let Some((part, reason)) = solution.undefined() {
         blocks.text(&format!("{}: {reason}\n", part.path));
     }
@@ -170,6 +174,41 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
     blocks.append(temperature_blocks(transmission, found));
     blocks.text(&outside_ranges(solved));
     blocks
+}
+
+/// The electric machines at a point.
+fn machines_table(solved: &SolvedPoint<'_>) -> TextTable {
+    let mut machines = TextTable::new(&["machine", "torque Nm", "loss W", "inverter W", "DC power W", "torque"]);
+    for (path, state) in &solved.machines {
+        machines.row(vec![
+            path.clone(),
+            number(Some(state.torque), 4),
+            number(Some(state.machine), 3),
+            number(Some(state.inverter), 3),
+            number(Some(state.electric()), 2),
+            match (state.outside, state.reached) {
+                (true, _) => "outside the map".to_owned(),
+                (false, reached) => reached.name().to_owned(),
+            },
+        ]);
+    }
+    machines
+}
+
+/// The drive unit in one line.
+fn unit_text(solved: &SolvedPoint<'_>) -> String {
+    let Some(unit) = solved.unit() else {
+        return String::new();
+    };
+    let efficiency = unit.system_efficiency.map_or_else(
+        || "no power passes".to_owned(),
+        |efficiency| format!("efficiency {} %", figures(100.0 * efficiency, 4)),
+    );
+    format!(
+        "drive unit: DC power {} W, loss {} W, {efficiency}\n",
+        figures(unit.dc_power_w, 5),
+        figures(unit.unit_loss_w, 4)
+    )
 }
 
 /// Loads of the bearings of a point with a power flow.

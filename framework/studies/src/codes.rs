@@ -34,6 +34,15 @@ gearloss_framework::document::codes! {
     SHIFT_MAP = "E0531", "invalid map of gears",
         cause: "A file under `gear: { map: ... }` cannot be read, has no gear for a speed and torque of its grid, or names a gear that the gearbox does not have.",
         help: "Correct the file: columns `speed [rpm]`, `torque [Nm]` and `gear`, with the same torques at each speed.";
+    BATTERY = "E0540", "contradictory battery",
+        cause: "A battery states neither a constant efficiency nor its cells, or both, or values of its cells contradict each other.",
+        help: "State `efficiency`, or `cells` with voltage and resistance, and correct the key that the message names.";
+    BEYOND_ENVELOPE = "E0541", "cycle beyond the envelope of a machine",
+        cause: "A cycle asks for more torque or speed than a machine has whose envelope says `beyond: refuse`.",
+        help: "Write `beyond: limit`, correct the envelope, or choose a larger machine.";
+    NO_MACHINE = "E0542", "quantity of a machine that is not described",
+        cause: "An analysis asks for quantities of the drive unit, but the gearbox has no machine, or its machine belongs to a thermal network that is not used.",
+        help: "Describe it under `machines` of the gearbox, or choose a quantity of the gearbox.";
     DATA = "E0601", "invalid measured data",
         cause: "A data file lacks a column, has cells that cannot be read, or has units or accuracies that contradict the study.",
         help: "Correct the file, or its description under `measurements`.";

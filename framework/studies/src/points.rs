@@ -12,6 +12,7 @@ mod rows;
 mod solve;
 mod sums;
 mod temperature;
+mod unit;
 
 pub use cycle::{Choosing, ChosenBy, Driven, GearChoice, Optimum, Ride, Shift, Stretch, can_drive, drive, has_machine};
 pub use derivatives::{Derivative, Derivatives, Derived, Method, Variable};
@@ -27,3 +28,4 @@ pub use prepared::{PreparedPoint, SolvedPoint};
 pub use rows::{OnRig, Rows, SolvedRows};
 pub use sums::{SUMS, Sums, sum_of, sums};
 pub use temperature::{Found, OilTemperature};
+pub use unit::{UnitColumn, UnitPoint};

@@ -264,6 +264,11 @@ impl Solution<'_> {
         self.scratch.models.conditions.speeds[member]
     }
 
+    /// Torque that a port of a member applies. \[Nm\]
+    pub fn port_torque(&self, member: usize) -> f64 {
+        self.scratch.port_torque(member)
+    }
+
     /// Torque that a port applies to the transmission. \[Nm\]
     pub fn torque(&self, port: usize) -> f64 {
         self.scratch.work.ports[self.transmission.ports[port].member]

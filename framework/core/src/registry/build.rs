@@ -14,7 +14,7 @@ use crate::codes;
 use crate::contact::sharing::{CalculatedSharing, Sharing, SharingEntry};
 use crate::document::{Diagnostic, did_you_mean};
 use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
-use crate::loss::NoteBase;
+use crate::loss::{NoteBase, Term};
 use crate::mechanism::gear_drag::{GearDrag, Scope};
 use crate::mechanism::gear_mesh::MeshPart;
 use crate::mechanism::{Mechanism, ModelRef, Slot};
@@ -571,6 +571,13 @@ impl<'a> Build<'a> {
     /// Number of the instances built so far.
     pub(crate) fn instances(&self) -> usize {
         self.instances.len()
+    }
+
+    /// The terms of the model with these notes.
+    pub(crate) fn terms_of(&self, notes: NoteBase) -> &'static [Term] {
+        self.instances
+            .get(notes.instance())
+            .map_or(&[], |instance| instance.entry.terms)
     }
 
     /// All instances built, and the number of their note cells.

@@ -30,6 +30,9 @@ use crate::document::{Diagnostic, classify};
 use crate::hydraulics::Hydraulics;
 use crate::language::Language;
 use crate::loads::ShaftLoads;
+use crate::loss::Term;
+use crate::machine::{self, Contained};
+use crate::mechanism::auxiliary::Auxiliary;
 use crate::mechanism::bearing::Bearing;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart, FlankSurfaces};
 use crate::mechanism::clutch::Clutch;
@@ -89,14 +92,24 @@ impl Transmission {
         let supports = &models.supports;
         let housing = Housing::new(entry, &mut build, &mut found);
         classify(&mut found, codes::THERMAL);
+        let counted = models.of_rotors(&frame, &build);
+        let around = machine::Around {
+            names: &frame.nodes,
+            ports,
+            shafts: &entry.ports,
+            files,
+            counted: &counted,
+        };
+        let mut machines = machine::machines(entry, around, &mut found, &mut warnings);
+        classify(&mut found, codes::MACHINE);
+        machines.extend(machine::motors(entry, around, &machines, &mut found));
         let around = Around {
             names: &frame.nodes,
             members: &members.names,
             gears: &frame.gears,
             lubricants: &oils.lubricants(),
             housing: housing.outside(),
-            ports,
-            files,
+            machines: &machines,
         };
         let mut network = Network::new(entry, &around, &mut build, &mut found);
         check_network(entry, resolved, &models.parts, &mut found, &mut warnings);
@@ -160,6 +173,7 @@ impl Transmission {
             uneven: frame.sharing.iter().any(Option::is_some),
             warnings,
             housing,
+            machines,
             network,
         };
         built.check_states(&mut memory)?;
@@ -517,6 +531,29 @@ impl Models {
         warnings.append(&mut oils.warnings);
         planets::assembly(entry, &frame.members, gears, meshes, warnings);
         models
+    }
+}
+
+impl Models {
+    /// Bearings and windage of shafts with a loss, which a loss map of a machine may contain: shaft, path and what it is.
+    fn of_rotors(&self, frame: &Frame, build: &Build<'_>) -> Vec<(String, String, Contained)> {
+        // Windage of a rotor or a shaft has terms of its surfaces.
+        let of_surfaces = |term: &Term| ["gap", "faces", "cylinders", "shoulders"].contains(&term.name);
+        let of_rotor = |part: &PartInfo| {
+            let PartKind::Component(number) = part.kind else {
+                return None;
+            };
+            let component = self.components.get(number).filter(|component| !component.off)?;
+            let what = match part.mechanism {
+                Bearing::KEY => Contained::Bearings,
+                Auxiliary::KEY if build.terms_of(part.notes).iter().any(of_surfaces) => Contained::Windage,
+                _ => return None,
+            };
+            let member = component.between.iter().flatten().next()?;
+            let shaft = frame.members.names.get(usize::from(*member))?;
+            Some((shaft.clone(), part.path.clone(), what))
+        };
+        self.parts.iter().filter_map(of_rotor).collect()
     }
 }
 

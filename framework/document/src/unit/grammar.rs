@@ -185,6 +185,9 @@ const FLOW: Symbols = &[
     bare("lpm", 1e-3 / 60.0),
     bare("LPM", 1e-3 / 60.0),
 ];
+const VOLTAGE: Symbols = &[si("V", 0)];
+const CURRENT: Symbols = &[si("A", 0)];
+const OHM: Symbols = &[si("ohm", 0), si("Ohm", 0), si("Ω", 0)];
 const PERCENT: Symbols = &[bare("%", 0.01)];
 const MILLIKELVIN: Symbols = &[bare("mK", 1e-3)];
 const PER_KELVIN: Symbols = &[bare("ppm/K", 1e-6)];
@@ -423,6 +426,10 @@ const COMPOUNDS: &[(Dimension, &[Part])] = &[
         Dimension::SpecificHeat,
         &[Of(ENERGY, 1), Text("/"), Of(MASS, -1), Times, Of(DIFFERENCE, -1)],
     ),
+    (Dimension::Voltage, &[Of(VOLTAGE, 1)]),
+    (Dimension::Current, &[Of(CURRENT, 1)]),
+    (Dimension::ElectricResistance, &[Of(OHM, 1)]),
+    (Dimension::Charge, &[Of(CURRENT, 1), Times, Of(TIME, 1)]),
 ];
 
 /// Other spellings of usual units with an offset, which take part in no compound.

@@ -17,6 +17,10 @@ impl ExportFormat for Mat {
         "mat"
     }
 
+    fn takes_machines(&self) -> bool {
+        true
+    }
+
     fn meaning(&self) -> &'static str {
         "The vectors of `matlab` as a MAT-file, with the oil temperature of each point if it follows from a heat balance."
     }

@@ -16,6 +16,10 @@ impl ExportFormat for Matlab {
         "matlab"
     }
 
+    fn takes_machines(&self) -> bool {
+        true
+    }
+
     fn meaning(&self) -> &'static str {
         "Efficiency and loss torque over torque, speed and, if several were computed, oil temperature, as a script with the vectors \
          of Simulink's gearbox blocks."

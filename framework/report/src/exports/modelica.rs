@@ -18,6 +18,10 @@ impl ExportFormat for Modelica {
         "modelica"
     }
 
+    fn takes_machines(&self) -> bool {
+        true
+    }
+
     fn meaning(&self) -> &'static str {
         "Loss torque and loss over torque and speed for `CombiTable2Ds` of the Modelica Standard Library, one table for each oil \
          temperature, and the no-load loss over speed and oil temperature."

@@ -6,6 +6,7 @@ use gearloss_framework::flow::Status;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::loads::SupportLoad;
+use gearloss_framework::machine::MachineState;
 use gearloss_framework::registry::Package;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::{CrossedStage, PartInfo, Port, Stage, Transmission};
@@ -13,7 +14,7 @@ use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::{RPM, tidy};
 use gearloss_studies::pairs::{PreloadRecord, preload_records};
 use gearloss_studies::points::{
-    Derivatives, Note, PreparedPoint, SelfLocking, SolvedPoint, Sums, WeakPoint, evidence, sums,
+    Derivatives, Note, PreparedPoint, SelfLocking, SolvedPoint, Sums, UnitPoint, WeakPoint, evidence, sums,
 };
 use gearloss_studies::ratings::{RatedComponent, rated};
 use schemars::JsonSchema;
@@ -94,6 +95,12 @@ pub struct PointRecord {
     unreached: Vec<String>,
     /// Coefficients of formulas that were changed from their source.
     pub changed_from_source: Vec<Changed>,
+    /// Quantities of the drive unit; absent without machines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<UnitPoint>,
+    /// Electric machines; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    machines: Vec<MachineRecord>,
     /// Derivatives over the variables of `--derivative`; absent without that option.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub derivatives: Vec<Derivatives>,
@@ -129,6 +136,46 @@ struct PortRecord {
     torque_nm: Option<f64>,
     /// Power into the transmission; null without a power flow, and at an output whose ideal power is less than the losses. [W]
     power_w: Option<f64>,
+}
+
+/// An electric machine.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Machine")]
+struct MachineRecord {
+    /// Path.
+    machine: String,
+    /// Speed. [rpm]
+    speed_rpm: f64,
+    /// Torque as applied to the transmission. [Nm]
+    torque_nm: f64,
+    /// Power into the transmission. [W]
+    shaft_power_w: f64,
+    /// Power out of the DC link. [W]
+    dc_power_w: f64,
+    /// Loss of the machine, with what its map contains. [W]
+    loss_w: f64,
+    /// Loss of an inverter that is described apart. [W]
+    inverter_loss_w: f64,
+    /// True if it is outside a map, whose end value is then used.
+    outside_map: bool,
+    /// What its torque reaches: `continuous`, `peak` or `beyond` the envelope.
+    reached: &'static str,
+}
+
+impl MachineRecord {
+    fn new((path, state): &(String, MachineState)) -> Self {
+        Self {
+            machine: path.clone(),
+            speed_rpm: tidy(state.speed * RPM),
+            torque_nm: state.torque,
+            shaft_power_w: state.shaft(),
+            dc_power_w: state.electric(),
+            loss_w: state.machine,
+            inverter_loss_w: state.inverter,
+            outside_map: state.outside,
+            reached: state.reached.name(),
+        }
+    }
 }
 
 /// A rotating member.
@@ -273,6 +320,8 @@ impl PointRecord {
             evidence: evidence(transmission, resolved, &|path| gearbox.places.is_written(path)),
             unreached: resolved.unreached.clone(),
             changed_from_source: changed_from_source(transmission, resolved),
+            unit: solved.unit(),
+            machines: solved.machines.iter().map(MachineRecord::new).collect(),
             derivatives: Vec::new(),
         })
     }

@@ -93,7 +93,7 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
         ));
     }
     if let Some(consumption) = &duty.consumption {
-        consumption_text(consumption, page);
+        consumption_text(duty, consumption, page);
     }
     gears::text(duty, page);
     if energy.brakes_j > 0.0 {
@@ -110,8 +110,12 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
     if let Some(heat) = &duty.heat {
         heat_text(duty, heat, page);
     }
-    if duty.motors_beyond_map {
-        page.line("  note: a motor was outside its map; the loss at the edge of the map is used");
+    for text in duty
+        .machines
+        .iter()
+        .flat_map(|machine| machine.cautions(duty.duration_s))
+    {
+        page.line(format!("  note: {text}"));
     }
     page.line(format!(
         "  {} intervals, {} steps, {} evaluations",
@@ -121,7 +125,7 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
 }
 
 /// Consumption, recuperation and range of the vehicle.
-fn consumption_text(consumption: &Consumption, page: &mut Page) {
+fn consumption_text(duty: &DutyOfSet, consumption: &Consumption, page: &mut Page) {
     page.line(format!(
         "  battery: {} kWh/100 km drawn, {} recuperated, consumption {} kWh/100 km{}",
         short(consumption.drawn_kwh_per_100_km),
@@ -133,23 +137,43 @@ fn consumption_text(consumption: &Consumption, page: &mut Page) {
             ", without losses of the motor"
         }
     ));
+    let inverter = if consumption.inverter_kwh_per_100_km > 0.0 {
+        format!(", inverter {}", short(consumption.inverter_kwh_per_100_km))
+    } else {
+        String::new()
+    };
     let share = |of: Option<f64>| of.map_or_else(|| "-".to_owned(), |of| format!("{} %", short(100.0 * of)));
     let shifts = consumption.shifts_kwh_per_100_km;
     let shifts = shifts.map_or_else(String::new, |shifts| format!(", shifts {}", short(shifts)));
     page.line(format!(
-        "  of it in kWh/100 km: vehicle {}, transmission {}, machine {}, brakes {}, auxiliaries {}, battery {}; system efficiency {}, \
+        "  of it in kWh/100 km: vehicle {}, transmission {}, machine {}{}, brakes {}, auxiliaries {}, battery {}; system efficiency {}, \
          recuperated {} of the braking energy",
         short(consumption.wheels_kwh_per_100_km),
         short(consumption.transmission_kwh_per_100_km),
         short(consumption.machine_kwh_per_100_km),
+        inverter,
         short(consumption.brakes_kwh_per_100_km),
         short(consumption.auxiliaries_kwh_per_100_km),
         format!("{}{shifts}", short(consumption.battery_kwh_per_100_km)),
         share(consumption.system_efficiency),
         share(consumption.recuperated_share)
     ));
-    if consumption.motor_beyond_map {
+    if consumption.motor_beyond_map && duty.machines.is_empty() {
         page.line("  note: the motor was outside its map, the loss at the edge of the map is used");
+    }
+    if consumption.machine_limited > 0 {
+        page.line(format!(
+            "  limited: the machine is at its envelope in {} intervals; the vehicle lacks {} kWh/100 km at its wheels",
+            consumption.machine_limited,
+            short(consumption.lacking_kwh_per_100_km)
+        ));
+    }
+    if consumption.battery_limited > 0 {
+        page.line(format!(
+            "  limited: the battery is at its limit in {} intervals and lacks {} kWh/100 km",
+            consumption.battery_limited,
+            short(consumption.shortfall_kwh_per_100_km)
+        ));
     }
     let Some(range) = consumption.range_km else {
         page.line("  no range: more energy is recuperated than drawn");

@@ -185,6 +185,8 @@ fn slug(quantity: Quantity) -> &'static str {
         Quantity::Loss => "loss",
         Quantity::LossTorque => "loss-torque",
         Quantity::Temperature => "temperature",
+        // Not measured, so never identified from.
+        Quantity::DcPower | Quantity::UnitLoss | Quantity::SystemEfficiency => "unit",
     }
 }
 

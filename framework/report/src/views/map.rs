@@ -40,7 +40,8 @@ fn show(outcome: &MapOutcome, page: &mut Page) {
 /// A map as a table.
 fn show_map(name: &str, map: &MapOfSet, page: &mut Page) {
     page.line(format!(
-        "{name}: efficiency in %, gear {}, models {}{}",
+        "{name}: efficiency{} in %, gear {}, models {}{}",
+        map.of.words(),
         map.gear,
         map.model_set,
         map.bound_words()

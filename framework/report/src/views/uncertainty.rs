@@ -19,15 +19,21 @@ type Quantity = (
     &'static str,
     &'static str,
     &'static str,
-    fn(&PointOfBand) -> &QuantityBand,
+    fn(&PointOfBand) -> QuantityBand,
 );
 
-const QUANTITIES: [Quantity; 4] = [
-    ("efficiency", "efficiency", "%", |p| &p.efficiency_percent),
-    ("loss_w", "loss", "W", |p| &p.loss_w),
-    ("loss_torque_nm", "loss torque", "Nm", |p| &p.loss_torque_nm),
+const QUANTITIES: [Quantity; 6] = [
+    ("efficiency", "efficiency", "%", |p| p.efficiency_percent),
+    ("loss_w", "loss", "W", |p| p.loss_w),
+    ("loss_torque_nm", "loss torque", "Nm", |p| p.loss_torque_nm),
     ("oil_temperature_degc", "oil temperature", "degC", |p| {
-        &p.oil_temperature_degc
+        p.oil_temperature_degc
+    }),
+    ("unit_loss_w", "loss of the drive unit", "W", |p| {
+        p.unit_loss_w.unwrap_or_default()
+    }),
+    ("system_efficiency", "efficiency of the drive unit", "%", |p| {
+        p.system_percent
     }),
 ];
 
@@ -104,7 +110,7 @@ fn figures(name: &str, set: &BandsOfSet, (short, quantity, unit, read): &Quantit
         let line = |words: &str, stroke: Stroke, y: &dyn Fn(&QuantityBand) -> Option<f64>| Line {
             name: words.to_owned(),
             points: (0..columns)
-                .map(|i| Some((set.speeds_rpm[i], y(read(&set.points[t * columns + i]))?)))
+                .map(|i| Some((set.speeds_rpm[i], y(&read(&set.points[t * columns + i]))?)))
                 .collect(),
             stroke,
         };

@@ -17,7 +17,7 @@ pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranki
 
 use super::duties::DrivePlan;
 use super::inputs::Input;
-use super::measurable::countable;
+use super::measurable::{countable, measured};
 use super::model_error::ModelErrorEntry;
 use super::rows::RowsPlan;
 use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
@@ -163,6 +163,9 @@ impl Analysis for CompareEntry {
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<ComparePlan<'a>, Stopped> {
         let path = cx.path();
         countable(cx, &path, self.quantity, self.difference)?;
+        if self.data.is_some() {
+            measured(cx, &path, self.quantity)?;
+        }
         if self.against.is_empty() && self.variants.is_empty() {
             let help = "write `against: [...]` with model sets, or `variants: { name: { path: value } }`";
             return Err(cx.wrong(&path, "nothing is compared with the base", help));
@@ -300,8 +303,8 @@ impl Outcome for CompareOutcome {
 /// Unit of a quantity in tables.
 fn unit(quantity: Quantity) -> &'static str {
     match quantity {
-        Quantity::Efficiency => "-",
-        Quantity::Loss => "W",
+        Quantity::Efficiency | Quantity::SystemEfficiency => "-",
+        Quantity::Loss | Quantity::DcPower | Quantity::UnitLoss => "W",
         Quantity::LossTorque => "Nm",
         Quantity::Temperature => "degC",
     }

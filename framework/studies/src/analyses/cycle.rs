@@ -3,6 +3,7 @@
 mod bands;
 mod bearings;
 mod gears;
+mod machines;
 mod outcome;
 mod points;
 pub(super) mod ratings;
@@ -38,6 +39,7 @@ use crate::table::Table;
 
 pub use bearings::{BearingLoad, BearingLoads, Load, LoadCase};
 pub use gears::{Criterion, GearsOfDuty, OptimumOfDuty, TimeInGear};
+pub use machines::{MachineOfDuty, OutsideMap};
 pub use ratings::RatedOverTime;
 pub use tables::NetworkTables;
 

@@ -8,6 +8,7 @@ use crate::points::{Choosing, Driven, GearChoice, OilTemperature, Ride, can_driv
 use crate::study::{By, Conditions, RideEntry};
 use gearloss_framework::document::data::MeasuredFault;
 use gearloss_framework::document::{Diagnostic, classify};
+use gearloss_framework::machine::Machine;
 use gearloss_framework::motor::MotorMap;
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
@@ -237,14 +238,11 @@ impl<'a> Duties<'a> {
         self.battery.is_some() && intervals.all(|interval| interval.given.vehicle_speed.is_some())
     }
 
-    /// Whether the losses of a machine are described: in the thermal network, or by a map of the vehicle.
+    /// Whether the losses of a machine are described: in the gearbox, or by a map of the vehicle.
     pub fn has_machine(&self, t: &Transmission) -> bool {
-        let in_network = || {
-            let oil = OilTemperature::from_conditions(t, self.conditions.oil_temperature);
-            let network = t.network().filter(|_| oil == OilTemperature::Network);
-            network.is_some_and(|network| network.motors().next().is_some())
-        };
-        self.battery.as_ref().is_some_and(|battery| battery.motor.is_some()) || in_network()
+        let oil = OilTemperature::from_conditions(t, self.conditions.oil_temperature);
+        let in_gearbox = || t.active_machines(oil == OilTemperature::Network).next().is_some();
+        self.battery.as_ref().is_some_and(|battery| battery.motor.is_some()) || in_gearbox()
     }
 
     /// Energy of the vehicle over a simulated cycle; absent without a battery or without distance.
@@ -265,10 +263,16 @@ impl<'a> Duties<'a> {
             return Err(cx.study.findings(vec![error]).into());
         }
         // A fixed temperature replaces the network with its motors.
-        let motors = b.transmission.network().filter(|_| oil == OilTemperature::Network);
-        let has_motor = motors.is_some_and(|network| network.motors().next().is_some());
-        if has_motor && self.battery.as_ref().is_some_and(|battery| battery.motor.is_some()) {
-            let message = "`motor_map` of the vehicle, but the thermal network of the gearbox has a motor";
+        let mut machines = b.transmission.active_machines(oil == OilTemperature::Network);
+        let machine = machines.next().map(|machine| machine.only_in_network);
+        if let Some(only_in_network) = machine
+            && self.battery.as_ref().is_some_and(|battery| battery.motor.is_some())
+        {
+            let message = if only_in_network {
+                "`motor_map` of the vehicle, but the thermal network of the gearbox has a motor"
+            } else {
+                "`motor_map` of the vehicle, but the gearbox has a machine: its losses would be counted twice"
+            };
             return Err(cx.wrong_as(codes::DUTY, path, message, "delete `motor_map` of the vehicle"));
         }
         let in_time = self.list.iter().find(|read| matches!(read.duty, Duty::Trace(_)));
@@ -525,7 +529,7 @@ impl Duties<'_> {
 
 /// Rejects sums by the terms of models, because energies of cycles are stored by component only.
 pub fn sums_energies(cx: &Planner<'_>, path: &str, by: By) -> Result<(), Stopped> {
-    if matches!(by, By::Term | By::Sum) {
+    if matches!(by, By::Term | By::Sum | By::Unit) {
         let message = "the energies of a cycle can be summed by mechanism, component or stage only";
         return Err(cx.wrong_as(
             codes::DUTY,
@@ -539,7 +543,7 @@ pub fn sums_energies(cx: &Planner<'_>, path: &str, by: By) -> Result<(), Stopped
 
 /// The battery of a vehicle with the losses of its motor.
 fn battery_of(cx: &Planner<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Option<Battery>, Vec<Diagnostic>> {
-    let Some(entry) = vehicle.battery else {
+    let Some(entry) = vehicle.battery.clone() else {
         let unused = vehicle.motor_map.as_ref().map(|_| {
             let error = Diagnostic::error(
                 format!("{path}.motor_map"),
@@ -549,6 +553,31 @@ fn battery_of(cx: &Planner<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Op
         });
         return unused.map_or(Ok(None), Err);
     };
+    let wrong = |key: &str, message: &str, help: &str| {
+        let at = format!("{path}.battery{key}");
+        vec![Diagnostic::error(at, message).help(help).code(codes::BATTERY)]
+    };
+    match (entry.efficiency, &entry.cells) {
+        (None, None) => {
+            let help = "write `efficiency: 0.95`, or `cells` with voltage and resistance";
+            return Err(wrong("", "the losses of the battery are not stated", help));
+        }
+        (Some(_), Some(_)) => {
+            let message = "a constant efficiency beside `cells` would count the losses twice";
+            return Err(wrong(".efficiency", message, "delete one of them"));
+        }
+        (None, Some(_)) if entry.charge_efficiency.is_some() => {
+            let message = "a constant efficiency beside `cells` would count the losses twice";
+            let help = "delete it, or state `coulombic_efficiency` of the cells";
+            return Err(wrong(".charge_efficiency", message, help));
+        }
+        (None, Some(cells)) => {
+            if let Some((key, message)) = cells.fault() {
+                return Err(wrong(&format!(".cells.{key}"), &message, "correct it"));
+            }
+        }
+        (Some(_), None) => {}
+    }
     let Some(map) = &vehicle.motor_map else {
         return Ok(Some(Battery {
             entry,
@@ -566,7 +595,8 @@ fn battery_of(cx: &Planner<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Op
         MotorMap::read_stated(map, &bytes).map_err(|faults| faults.into_iter().map(of_file).collect::<Vec<_>>())?;
     Ok(Some(Battery {
         entry,
-        motor: Some(motor),
+        // The port is that of the cycle, wherever it is in the gearbox.
+        motor: Some(Machine::of_map(&at, (0, 0), motor)),
         fixed_efficiency: vehicle.efficiency,
     }))
 }

@@ -53,7 +53,7 @@ impl Input {
             }
         };
         let wrong = |reason: String| {
-            let message = format!("{}: {reason}", entry.range.path);
+            let message = format!("{}: {reason}", entry.range.words());
             cx.wrong_as(codes::VARIED, path, message, "give a range with a positive width")
         };
         Ok(Self {

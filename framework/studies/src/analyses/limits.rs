@@ -17,6 +17,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::codes;
+use crate::points::OilTemperature;
 use crate::study::{LimitEntry, LimitedQuantity, Severity, Study};
 
 /// A limit with the value of the design or oil as described.
@@ -66,6 +67,8 @@ enum Owner {
     OtherCycle,
     /// The gearbox as a whole.
     Gearbox,
+    /// Gearbox, machines and inverters.
+    Unit,
     Gear(usize),
     /// Name of the rating and symbol of its quantity; pattern of the components.
     Rating {
@@ -106,6 +109,14 @@ impl Scope<'_> {
     fn has_battery(&self) -> bool {
         let mut vehicles = self.study.entry.vehicles.iter();
         vehicles.any(|(_, vehicle)| vehicle.battery.is_some())
+    }
+
+    /// Whether the machines of the gearbox lose power under the conditions of the study.
+    fn has_machine(&self) -> bool {
+        let given = self.study.entry.conditions.oil_temperature;
+        let oil = OilTemperature::from_conditions(self.transmission, given);
+        let mut machines = self.transmission.active_machines(oil == OilTemperature::Network);
+        machines.next().is_some()
     }
 
     fn wrong(&self, path: &str, message: impl Into<String>, help: &str) -> Findings {
@@ -193,6 +204,30 @@ impl Limit {
                 components: known_components(scope, of, component.unwrap_or("*"))?,
             },
             (LimitedQuantity::Ratio, None) => Owner::Gear(0),
+            (
+                LimitedQuantity::DcPower
+                | LimitedQuantity::MachineLoss
+                | LimitedQuantity::UnitLoss
+                | LimitedQuantity::SystemEfficiency,
+                Some(_),
+            ) => {
+                return Err(scope.wrong(of, "this quantity is that of the drive unit", "delete `of`"));
+            }
+            (
+                LimitedQuantity::DcPower
+                | LimitedQuantity::MachineLoss
+                | LimitedQuantity::UnitLoss
+                | LimitedQuantity::SystemEfficiency,
+                None,
+            ) => {
+                if !scope.has_machine() {
+                    let message = "the gearbox has no machine, or it belongs to a thermal network that is not used";
+                    let help = "describe it under `machines` of the gearbox";
+                    let error = Diagnostic::error(path, message).help(help).code(codes::NO_MACHINE);
+                    return Err(scope.found(error));
+                }
+                Owner::Unit
+            }
             (LimitedQuantity::Ratio, Some(gear)) => {
                 let names: Vec<&str> = t.states().iter().map(|state| state.name.as_str()).collect();
                 let place = names.iter().position(|known| *known == gear);
@@ -213,8 +248,10 @@ impl Limit {
                 "write for example `most: 110 degC`",
             )),
             bounds
-                if entry.quantity == LimitedQuantity::Efficiency
-                    && bounds.iter().flatten().any(|bound| !(0.0..=1.0).contains(bound)) =>
+                if matches!(
+                    entry.quantity,
+                    LimitedQuantity::Efficiency | LimitedQuantity::SystemEfficiency
+                ) && bounds.iter().flatten().any(|bound| !(0.0..=1.0).contains(bound)) =>
             {
                 let help = "write it as a number, such as `least: 0.95`";
                 Err(scope.wrong(path, "an efficiency is between 0 and 1", help))
@@ -383,6 +420,10 @@ fn words(entry: &LimitEntry, figure: Option<Figure>) -> String {
     match entry.quantity {
         LimitedQuantity::Temperature => format!("temperature of {}", of("the oil")),
         LimitedQuantity::Loss => "loss".to_owned(),
+        LimitedQuantity::DcPower => "power of the DC link".to_owned(),
+        LimitedQuantity::MachineLoss => "loss of machines and inverters".to_owned(),
+        LimitedQuantity::UnitLoss => "loss of the drive unit".to_owned(),
+        LimitedQuantity::SystemEfficiency => "efficiency of the drive unit".to_owned(),
         LimitedQuantity::Efficiency => "efficiency".to_owned(),
         LimitedQuantity::MeanLoss => format!("mean loss over {}", of("every cycle")),
         LimitedQuantity::Consumption => format!("consumption over {}", of("every cycle")),

@@ -20,7 +20,7 @@ use serde_json::Value;
 
 pub use axes::Axes;
 pub use best::{BestGears, PointsInGear};
-pub use entry::MapEntry;
+pub use entry::{MapEntry, MapOf};
 pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, Refusal};
 pub use outcome::{MapOfSet, MapOutcome, Mark, NotesOfSet, PartModel, SumMeaning};
 pub use points::MapPoints;
@@ -113,7 +113,7 @@ impl Analysis for MapEntry {
             }
             (Some(grid), None) => {
                 let planned = on_grid(cx, self, grid, gearbox)?;
-                exported::check(cx, &self.export, &planned)?;
+                exported::check(cx, (&self.export, self.of), &planned)?;
                 PointsOfMap::Grid(planned)
             }
             (None, Some(points)) => PointsOfMap::List(Box::new(self.listed(cx, gearbox, points)?)),
@@ -123,6 +123,7 @@ impl Analysis for MapEntry {
             }
         };
         let corrections = self.corrections(cx, &points)?;
+        self.check_machines(cx, &points)?;
         // The libraries of FMUs, if one is exported.
         let is_needed = self.export.iter().any(|name| name.format().has_library());
         Ok(MapPlan {
@@ -156,6 +157,7 @@ impl Analysis for MapEntry {
         };
         Ok(MapOutcome {
             head: engine.head(&built),
+            of: self.of,
             envelope: grid.transpose()?.and_then(|grid| grid.envelope.clone()),
             notes_of_sets: notes_of_sets(&maps),
             maps: maps.into_iter().map(|map| map.outcome(&rows)).collect(),
@@ -175,6 +177,23 @@ impl Analysis for MapEntry {
 }
 
 impl MapEntry {
+    /// Refuses a map of machines that a gearbox does not have.
+    fn check_machines(&self, cx: &Planner<'_>, points: &PointsOfMap<'_>) -> Result<(), Stopped> {
+        let all: Vec<&Run<'_>> = match points {
+            PointsOfMap::Grid(planned) => planned.iter().map(|plan| &plan.run).collect(),
+            PointsOfMap::List(listed) => listed.rows.runs(),
+        };
+        let without = |run: &&Run<'_>| !cx.has_machines(&run.built.transmission);
+        match all.into_iter().find(without) {
+            Some(run) if !self.of.is_gearbox() => {
+                let message = format!("`{}` has no machine", run.built.name);
+                let help = "describe it under `machines` of the gearbox, or delete `of`";
+                Err(cx.wrong_as(codes::NO_MACHINE, &format!("{}.of", cx.path()), message, help))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The maps over the grid.
     fn over_grid<'a>(
         &self,
@@ -203,7 +222,7 @@ impl MapEntry {
                     let states = run.built.transmission.states();
                     states.iter().position(|state| state.name == run.points.gear)
                 });
-                let selection = Selection::new(Some(&plan.axes), whole).in_gear(number);
+                let selection = Selection::new(self.of, Some(&plan.axes), whole).in_gear(number);
                 let taker = rows.taker(run, &plan.bound, &selection);
                 let take = |points: &mut Numbered<'_>| taker.take(points);
                 map.first = map.rows.len();
@@ -273,7 +292,7 @@ impl MapEntry {
                 let points: Vec<PointResult> = of_map.map(|((_, _, point), _)| point.clone()).collect();
                 let oil = common(&points).map_or(OilTemperature::Balance, OilTemperature::Fixed);
                 let mut map = Map::new(run, &bound, oil, &rows);
-                let selection = Selection::new(None, false);
+                let selection = Selection::new(self.of, None, false);
                 let taker = rows.taker(run, &bound, &selection);
                 let piece = Piece::new(0, points, Vec::new()).made(0, &|points| taker.take(points));
                 map.add(piece, &mut rows)?;
@@ -354,6 +373,9 @@ struct Rows<'c> {
     limits: Vec<LimitColumn>,
     /// Corrections by gear.
     corrections: Option<Corrections>,
+    /// Whether a transmission has machines.
+    has_unit: bool,
+    of: MapOf,
     /// Number of columns before those of points.
     constant: usize,
     table: Table,
@@ -374,12 +396,15 @@ impl<'c> Rows<'c> {
         let parts = all.iter().flat_map(|built| built.transmission.parts());
         let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
         let limits = LimitColumn::all(engine.language, engine.study);
-        let mut none = RowsOf::none(bound, &parts, &limits);
+        let has_unit = all.iter().any(|built| engine.has_machines(&built.transmission));
+        let mut none = RowsOf::none(bound, &parts, &limits, has_unit);
         none.correction = corrections.map(|_| None);
         Self {
             table: none.table(engine.name, []),
             corrections: corrections.cloned(),
             limits,
+            has_unit,
+            of: entry.of,
             holds: engine.sink.is_none() || entry.write.contains(&Write::Json),
             wanted: engine.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
             constant: 2 + bound.len(),
@@ -390,7 +415,7 @@ impl<'c> Rows<'c> {
 
     /// Takes the rows of a run.
     fn taker<'r>(&self, run: &'r Run<'r>, bound: &[(String, Value)], selection: &'r Selection) -> Taker<'r> {
-        let mut rows = RowsOf::new(run, bound, &self.parts, &self.limits);
+        let mut rows = RowsOf::new(run, bound, &self.parts, &self.limits, self.has_unit);
         let of_gear = |ready: &&Arc<ReadyCorrection>| ready.record.gear == run.points.gear;
         rows.correction = self.corrections.as_ref().map(|all| all.iter().find(of_gear).cloned());
         Taker {
@@ -408,6 +433,7 @@ struct Map<'a> {
     run: Run<'a>,
     bound: Vec<(String, Value)>,
     oil: OilTemperature,
+    of: MapOf,
     shown: ShownMap,
     seen: Vec<Extent>,
     lost: TotalLoss,
@@ -432,6 +458,7 @@ impl<'a> Map<'a> {
             run: run.clone(),
             bound: bound.to_vec(),
             oil,
+            of: rows.of,
             shown: ShownMap::new(None, false),
             seen: Vec::new(),
             lost: TotalLoss::default(),
@@ -492,9 +519,10 @@ impl<'a> Map<'a> {
                 columns,
                 self.rows,
                 self.undefined,
-                &rows.limits,
+                (&rows.limits, rows.has_unit),
             )
             .naming_gears(self.gears.is_some()),
+            of: self.of,
             limits: rows.limits.clone(),
             model_set: built.name.clone(),
             gear: match &self.gears {

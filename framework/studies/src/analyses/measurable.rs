@@ -25,3 +25,14 @@ pub fn countable(cx: &Planner<'_>, path: &str, quantity: Quantity, difference: D
     }
     Ok(())
 }
+
+/// Rejects quantities of the drive unit where measured values or losses of components judge.
+pub fn measured(cx: &Planner<'_>, path: &str, quantity: Quantity) -> Result<(), Stopped> {
+    if !quantity.is_of_unit() {
+        return Ok(());
+    }
+    let what = quantity.words(Difference::Points).0;
+    let message = format!("the {what} has no measured values");
+    let help = "use efficiency, loss, loss torque or temperature";
+    Err(cx.wrong(&format!("{path}.quantity"), message, help))
+}

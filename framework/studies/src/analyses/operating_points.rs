@@ -14,7 +14,7 @@ use super::rows::{RowsPlan, Solved};
 use super::shares::{Shares, together};
 use super::{Analysis, Built, Engine, Head, Outcome, Planner, Stopped};
 use crate::measured::{ListedPoint, Measured, Row};
-use crate::points::{Note, PointResult};
+use crate::points::{Note, PointResult, UnitPoint};
 use crate::register_analysis;
 use crate::study::{By, Data, Uses, Write};
 use crate::table::Table;
@@ -113,6 +113,9 @@ pub struct OperatingPoint {
     pub loss_w: Option<f64>,
     /// The loss by share, in the order of `shares`. [W]
     pub losses_w: Option<Vec<f64>>,
+    /// The drive unit; absent without machines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<UnitPoint>,
     /// Limited quantities, by the names of the limits; absent if the study has none at points.
     #[serde(skip_serializing_if = "Ordered::is_empty")]
     pub limit_values: Ordered<Option<f64>>,
@@ -258,6 +261,7 @@ impl OperatingPointsEntry {
             efficiency: point.efficiency,
             loss_w: point.loss,
             losses_w: shares[*place].stack(point),
+            unit: point.unit(),
             limit_values: LimitColumn::by_name(limits, &point.limits),
             beyond: point.beyond,
             measured: match self.data {
@@ -282,6 +286,8 @@ impl Outcome for OperatingPointsOutcome {
 
     fn tables(&self) -> Vec<Table> {
         let shares = self.operating_points.first().map_or(&[][..], |of_set| &of_set.shares);
+        let mut points = self.operating_points.iter().flat_map(|of_set| &of_set.points);
+        let has_unit = points.any(|point| point.unit.is_some());
         let table = Table::of_each(&self.head.analysis, &self.operating_points, |of_set| &of_set.points)
             .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
             .fields("gear name", |(_, point)| point)
@@ -331,6 +337,11 @@ impl Outcome for OperatingPointsOutcome {
             .each(shares.iter().enumerate(), |table, (i, share)| {
                 table.number(format!("{share}_w"), "W", format!("Loss: {share}"), |(_, point)| {
                     point.losses_w.as_ref().map(|watts| watts[i])
+                })
+            })
+            .each(UnitPoint::columns(has_unit), |table, column| {
+                table.number(column.name, column.unit, column.meaning, |(_, point)| {
+                    point.unit.as_ref().and_then(column.read)
                 })
             })
             .each(&self.limits, |table, limit| {

@@ -18,7 +18,7 @@ use super::model_error::{ModelError, ModelErrorOfSet, weigh};
 use super::stopped::Stopped;
 use crate::codes;
 use crate::correction::{CorrectionFrom, ReadyCorrection, UsedCorrection};
-use crate::points::{Field, Given, Points};
+use crate::points::{Field, Given, OilTemperature, Points};
 use crate::study::{Grid, Study};
 
 /// One gearbox under one model set.
@@ -77,6 +77,12 @@ impl<'a> Planner<'a> {
             name,
             record: Mutex::default(),
         }
+    }
+
+    /// Whether the machines of a gearbox lose power under the conditions of the study.
+    pub fn has_machines(&self, t: &Transmission) -> bool {
+        let oil = OilTemperature::from_conditions(t, self.study.entry.conditions.oil_temperature);
+        t.active_machines(oil == OilTemperature::Network).next().is_some()
     }
 
     /// Path of the analysis in the study.

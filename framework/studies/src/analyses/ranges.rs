@@ -18,9 +18,23 @@ pub struct Range {
 impl Range {
     /// `path` is the entry's place in the study.
     pub fn new(cx: &Planner<'_>, path: &str, entry: &RangeEntry, b: &Built<'_>) -> Result<Self, Stopped> {
-        let wrong =
-            |message: String, help: &str| cx.wrong_as(codes::VARIED, path, format!("{}: {message}", entry.path), help);
-        let varied = varied(cx, path, (&entry.path, entry.tie), b)?;
+        let wrong = |message: String, help: &str| {
+            cx.wrong_as(codes::VARIED, path, format!("{}: {message}", entry.words()), help)
+        };
+        let together = !entry.paths.is_empty() || !entry.values.is_empty();
+        let varied = match &entry.path {
+            Some(own) if !together => varied(cx, path, (own, entry.tie), b)?,
+            Some(_) => {
+                let message = "both `path` and `paths` with `values` are stated";
+                return Err(cx.wrong_as(codes::VARIED, path, message, "delete one of them"));
+            }
+            None if together => Varied::along(cx.language, &b.resolved, &entry.paths, &entry.values)
+                .map_err(|(key, message, help)| cx.wrong_as(codes::VARIED, &format!("{path}.{key}"), message, &help))?,
+            None => {
+                let help = "add `path`, or several `paths` with `values`";
+                return Err(cx.wrong_as(codes::VARIED, path, "no path is stated", help));
+            }
+        };
         let about = || {
             varied.start().ok_or_else(|| {
                 wrong(
@@ -44,6 +58,7 @@ impl Range {
                 let half = 0.01 * percent * middle.abs();
                 [middle - half, middle + half]
             }
+            (None, None, None, None) if together => varied.range,
             (None, None, Some(from), Some(to)) => [quantity(from, false)?, quantity(to, false)?],
             _ => {
                 return Err(wrong(

@@ -14,7 +14,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use self::solve::{Counted, Pair, counted_points, pairs};
-use super::measurable::countable;
+use super::measurable::{countable, measured};
 use super::ranges::varied;
 use super::trial::Left;
 use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work};
@@ -116,6 +116,7 @@ impl Analysis for RmsSurfaceEntry {
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<RmsSurfacePlan<'a>, Stopped> {
         let path = cx.path();
         countable(cx, &path, self.quantity, self.difference)?;
+        measured(cx, &path, self.quantity)?;
         let bind: Vec<&str> = self.bind.ids().collect();
         let measured = cx.read(&format!("{path}.data"), &self.data, &bind)?;
         let rows = cx.study.rows(&measured, &self.bind, self.gear.as_deref(), false);

@@ -125,6 +125,12 @@ impl Plan for RowsPlan<'_> {
 }
 
 impl<'a> RowsPlan<'a> {
+    /// The runs of all sets.
+    pub fn runs(&self) -> Vec<&Run<'a>> {
+        let sets = self.sets.iter();
+        sets.flat_map(|set| set.runs.iter().map(|(_, run)| run)).collect()
+    }
+
     /// Builds the gearbox of every row with each set.
     ///
     /// # Errors

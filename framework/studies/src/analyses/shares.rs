@@ -18,6 +18,14 @@ impl Shares {
     /// The shares of one transmission.
     pub fn new(t: &Transmission, by: By) -> Self {
         let mut names: Vec<String> = Vec::new();
+        if by == By::Unit {
+            names.extend(["gearbox", "machines", "inverters"].map(str::to_owned));
+            return Self {
+                by,
+                names,
+                places: Vec::new(),
+            };
+        }
         if by == By::Sum {
             names.extend(SUMS.iter().map(|(name, _)| (*name).to_owned()));
             return Self {
@@ -77,6 +85,10 @@ impl Shares {
         let mut stack = vec![0.0; self.names.len()];
         match self.by {
             By::Sum => stack.copy_from_slice(&point.sums),
+            By::Unit => {
+                let unit = point.unit()?;
+                stack = vec![point.loss?, unit.machine_loss_w, unit.inverter_loss_w];
+            }
             By::Term => {
                 for (places, terms) in self.places.iter().zip(&point.terms) {
                     for (place, watts) in places.iter().zip(terms) {
@@ -96,7 +108,7 @@ impl Shares {
 pub fn together<'a>(all: impl Iterator<Item = &'a Transmission> + Clone, by: By) -> Vec<String> {
     let mut names: Vec<String> = distinct(all.clone().flat_map(|t| Shares::new(t, by).names));
     // Shares with `none` everywhere are omitted.
-    if by != By::Sum {
+    if !matches!(by, By::Sum | By::Unit) {
         names.retain(|name| {
             all.clone().any(|t| {
                 let shares = Shares::new(t, by);

@@ -335,6 +335,7 @@ impl SweepEntry {
                     efficiency: p.efficiency,
                     loss_w: p.loss,
                     losses_w: summed.stack(p),
+                    unit: p.unit(),
                     limit_values: LimitColumn::by_name(limits, &p.limits),
                     beyond: p.beyond,
                     solved_speed_rpm: p.speed * RPM,

@@ -132,6 +132,15 @@ pub struct PointOfBand {
     pub loss_torque_nm: QuantityBand,
     /// Oil temperature. [degC]
     pub oil_temperature_degc: QuantityBand,
+    /// Losses of gearbox, machines and inverters; absent without machines. [W]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit_loss_w: Option<QuantityBand>,
+    /// Efficiency of the drive unit; absent without machines. [-]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub system_efficiency: Option<QuantityBand>,
+    /// The same in percent. [%]
+    #[serde(skip)]
+    pub system_percent: QuantityBand,
     /// The efficiency in percent. [%]
     #[serde(skip)]
     pub efficiency_percent: QuantityBand,
@@ -150,6 +159,11 @@ impl QuantityBand {
     /// Half the width of the band.
     pub fn half_width(&self) -> Option<f64> {
         self.band.map(|band| 0.5 * (band[2] - band[0]))
+    }
+
+    /// The quantity, if it has a value at the point or in its band.
+    fn known(self) -> Option<Self> {
+        (self.nominal.is_some() || self.band.is_some()).then_some(self)
     }
 
     fn scaled(&self, scale: f64) -> Self {
@@ -262,21 +276,32 @@ type Quantity = (
     &'static str,
     &'static str,
     &'static str,
-    fn(&PointOfBand) -> &QuantityBand,
+    fn(&PointOfBand) -> Option<&QuantityBand>,
 );
 
-const QUANTITIES: [Quantity; 4] = [
-    ("efficiency", "-", "Output power over input power", |p| &p.efficiency),
-    ("loss_w", "W", "Sum of all losses", |p| &p.loss_w),
+const QUANTITIES: [Quantity; 6] = [
+    ("efficiency", "-", "Output power over input power", |p| {
+        Some(&p.efficiency)
+    }),
+    ("loss_w", "W", "Sum of all losses", |p| Some(&p.loss_w)),
     (
         "loss_torque_nm",
         "Nm",
         "Loss over the speed of the reference port",
-        |p| &p.loss_torque_nm,
+        |p| Some(&p.loss_torque_nm),
     ),
     ("oil_temperature_degc", "degC", "Oil temperature", |p| {
-        &p.oil_temperature_degc
+        Some(&p.oil_temperature_degc)
     }),
+    ("unit_loss_w", "W", "Losses of gearbox, machines and inverters", |p| {
+        p.unit_loss_w.as_ref()
+    }),
+    (
+        "system_efficiency",
+        "-",
+        "Power at the other ports over the power of the DC link",
+        |p| p.system_efficiency.as_ref(),
+    ),
 ];
 
 impl Outcome for UncertaintyOutcome {
@@ -285,11 +310,16 @@ impl Outcome for UncertaintyOutcome {
     }
 
     fn tables(&self) -> Vec<Table> {
+        let points = || self.bands.iter().flat_map(|set| &set.points);
+        // Quantities of the drive unit have columns only if there is one.
+        let known = QUANTITIES.iter().copied().enumerate();
+        let known = known.filter(|(i, (.., quantity))| *i < 4 || points().any(|point| quantity(point).is_some()));
+        let known: Vec<Quantity> = known.map(|(_, quantity)| quantity).collect();
         let table = Table::of_each(&self.head.analysis, &self.bands, |set| &set.points)
             .text("model_set", "Model set", |(set, _)| &set.model_set)
             .text("gear", "Gear", |(set, _)| &set.gear)
             .fields("torque_nm speed_rpm", |(_, point)| point)
-            .each(QUANTITIES, |table, (name, unit, meaning, quantity)| {
+            .each(known, |table, (name, unit, meaning, quantity)| {
                 let ends = [
                     ("low", "lower end of the 95 % band"),
                     ("median", "median of the samples"),
@@ -297,11 +327,11 @@ impl Outcome for UncertaintyOutcome {
                 ];
                 let nominal = format!("{meaning}, nominal");
                 table
-                    .number(name, unit, nominal, |(_, point)| quantity(point).nominal)
+                    .number(name, unit, nominal, |(_, point)| quantity(point)?.nominal)
                     .each(ends.into_iter().enumerate(), |table, (k, (end, which))| {
                         let meaning = format!("{meaning}, {which}");
                         table.number(format!("{name}_{end}"), unit, meaning, |(_, point)| {
-                            quantity(point).band.map(|band| band[k])
+                            quantity(point)?.band.map(|band| band[k])
                         })
                     })
             });

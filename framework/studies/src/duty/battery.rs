@@ -1,24 +1,31 @@
 //! Energy from and into the battery of a vehicle: consumption, recuperation, range.
 
-use gearloss_framework::motor::MotorMap;
+mod cells;
+
+use gearloss_framework::machine::{Machine, MachineEnergy};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use self::cells::CellsEntry;
+use self::cells::{Cells, Drawn};
 use crate::points::{Driven, Stretch};
 
 /// A battery and what it supplies besides the motor.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 pub struct BatteryEntry {
     /// Usable energy. [kWh]
     #[schemars(range(min = 1e-3, max = 1e6))]
     pub energy: f64,
-    /// Energy at the motor's terminals over the energy drawn from the cells: battery, cables and, unless the motor map has it, the inverter. [-]
+    /// Energy at the motor's terminals over the energy drawn from the cells: battery, cables and, unless the motor map has it, the inverter; not with
+    /// `cells`. [-]
     #[schemars(range(min = 0.01, max = 1.0))]
-    pub efficiency: f64,
+    pub efficiency: Option<f64>,
     /// The same for energy into the battery; default: `efficiency`. [-]
     #[schemars(range(min = 0.01, max = 1.0))]
     pub charge_efficiency: Option<f64>,
-    /// Power of other consumers, drawn all the time, also from recuperated energy. [W]
+    /// Open-circuit voltage and resistance, instead of `efficiency`.
+    pub cells: Option<CellsEntry>,
+    /// Power of other consumers at the DC link, drawn all the time, also from recuperated energy. [W]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 1e6))]
     pub auxiliaries: f64,
@@ -29,8 +36,8 @@ pub struct BatteryEntry {
 pub struct Battery {
     /// The battery.
     pub entry: BatteryEntry,
-    /// Losses of the motor at the reference port, if the thermal network has no motor.
-    pub motor: Option<MotorMap>,
+    /// The machine of `motor_map` at the reference port, if the gearbox describes none.
+    pub motor: Option<Machine>,
     /// The fixed efficiency of the vehicle, if it replaces the losses of the transmission. \[-\]
     pub fixed_efficiency: Option<f64>,
 }
@@ -50,6 +57,8 @@ pub struct Consumption {
     pub transmission_kwh_per_100_km: f64,
     /// Loss of the machine, with the inverter if its map contains it. [kWh/100 km]
     pub machine_kwh_per_100_km: f64,
+    /// Loss of inverters that are described apart. [kWh/100 km]
+    pub inverter_kwh_per_100_km: f64,
     /// Energy dissipated in the brakes. [kWh/100 km]
     pub brakes_kwh_per_100_km: f64,
     /// Energy of the auxiliaries. [kWh/100 km]
@@ -59,8 +68,18 @@ pub struct Consumption {
     pub shifts_kwh_per_100_km: Option<f64>,
     /// Loss of the battery and of everything else that its efficiencies contain. [kWh/100 km]
     pub battery_kwh_per_100_km: f64,
+    /// Energy that the battery could not supply; part of no consumption. [kWh/100 km]
+    pub shortfall_kwh_per_100_km: f64,
+    /// Energy by which the vehicle lacks drive at its wheels, because a machine is at its envelope. [kWh/100 km]
+    pub lacking_kwh_per_100_km: f64,
+    /// Number of intervals in which the battery is at its limit. [-]
+    pub battery_limited: usize,
+    /// Number of intervals in which a machine is limited by its envelope. [-]
+    pub machine_limited: usize,
     /// What the consumption differs from the sum of its parts, relative to the energy that was drawn and recuperated. [-]
     pub residual_share: f64,
+    /// The largest such difference of an interval, relative to the largest energy of the interval. [-]
+    pub interval_residual_share: f64,
     /// Energy at the wheels over electric energy of the machine, while it drives; absent if it never does. [-]
     pub system_efficiency: Option<f64>,
     /// Energy recuperated into the battery over the energy at the wheels while they brake; absent if they never do. [-]
@@ -107,7 +126,7 @@ const fn column(
 
 impl Consumption {
     /// The quantities as columns of tables of every analysis.
-    pub const COLUMNS: [ConsumptionColumn; 12] = [
+    pub const COLUMNS: [ConsumptionColumn; 14] = [
         column(
             "consumption_kwh_per_100_km",
             PER_DISTANCE,
@@ -154,6 +173,18 @@ impl Consumption {
             "Energy of the auxiliaries",
             |c| Some(c.auxiliaries_kwh_per_100_km),
         ),
+        column(
+            "inverter_kwh_per_100_km",
+            PER_DISTANCE,
+            "Loss of inverters that are described apart",
+            |c| Some(c.inverter_kwh_per_100_km),
+        ),
+        column(
+            "lacking_kwh_per_100_km",
+            PER_DISTANCE,
+            "Energy that the vehicle lacks at its wheels because a machine or the battery is limited",
+            |c| Some(c.lacking_kwh_per_100_km + c.shortfall_kwh_per_100_km),
+        ),
         column("battery_kwh_per_100_km", PER_DISTANCE, "Loss of the battery", |c| {
             Some(c.battery_kwh_per_100_km)
         }),
@@ -176,20 +207,61 @@ impl Consumption {
 const KWH_PER_100_KM: f64 = 36.0;
 
 /// Sums over a cycle.
-#[derive(Default)]
 struct Energies {
+    source: Source,
     /// Drawn from the battery, positive. \[J\]
     drawn: f64,
     /// Stored in the battery, positive. \[J\]
     recuperated: f64,
 }
 
+/// The law of the battery: one of the two.
+enum Source {
+    /// Of energy at the terminals over energy of the cells, drawn and charged.
+    Efficiency([f64; 2]),
+    Cells(Cells),
+}
+
 impl Energies {
-    fn add(&mut self, battery: &BatteryEntry, electric: f64) {
-        if electric > 0.0 {
-            self.drawn += electric / battery.efficiency;
-        } else {
-            self.recuperated -= electric * battery.charge_efficiency.unwrap_or(battery.efficiency);
+    fn new(battery: &BatteryEntry) -> Self {
+        // One of the two is stated: this is checked where the battery is read.
+        let source = match &battery.cells {
+            Some(cells) => Source::Cells(Cells::new(cells)),
+            None => {
+                let efficiency = battery.efficiency.unwrap_or(1.0);
+                Source::Efficiency([efficiency, battery.charge_efficiency.unwrap_or(efficiency)])
+            }
+        };
+        Self {
+            source,
+            drawn: 0.0,
+            recuperated: 0.0,
+        }
+    }
+
+    /// Adds the energy at the terminals of an interval; returns what the battery supplied or took of it. \[J\]
+    fn add(&mut self, electric: f64, time: f64) -> Drawn {
+        match &mut self.source {
+            Source::Efficiency([drawn, charged]) => {
+                if electric > 0.0 {
+                    self.drawn += electric / *drawn;
+                } else {
+                    self.recuperated -= electric * *charged;
+                }
+                Drawn {
+                    terminals: electric,
+                    limited: false,
+                }
+            }
+            Source::Cells(cells) => {
+                let (cell_energy, drawn) = cells.pass(electric, time);
+                if cell_energy > 0.0 {
+                    self.drawn += cell_energy;
+                } else {
+                    self.recuperated -= cell_energy;
+                }
+                drawn
+            }
         }
     }
 
@@ -203,6 +275,7 @@ struct Moment {
     /// Of the machine into the transmission.
     shaft: f64,
     motor: f64,
+    inverter: f64,
     loss: f64,
     /// What moves the vehicle: from the transmission, minus that of the brakes.
     wheels: f64,
@@ -212,10 +285,37 @@ struct Moment {
     shift: f64,
 }
 
+impl Moment {
+    /// At the DC link.
+    fn electric(&self) -> f64 {
+        self.shaft + self.motor + self.inverter + self.auxiliaries
+    }
+
+    /// All that it becomes.
+    fn sum(&self) -> f64 {
+        self.wheels + self.brakes + self.loss + self.motor + self.inverter + self.auxiliaries + self.shift
+    }
+
+    /// Difference of both, relative to the largest of them.
+    fn residual(&self) -> f64 {
+        let parts = [
+            self.shaft,
+            self.wheels,
+            self.brakes,
+            self.motor,
+            self.auxiliaries,
+            self.loss,
+        ];
+        let largest = parts.iter().fold(f64::MIN_POSITIVE, |most, part| most.max(part.abs()));
+        (self.electric() - self.sum()).abs() / largest
+    }
+}
+
 /// Where the energy of the battery goes. \[J\]
 #[derive(Default)]
 struct Parts {
     motor: f64,
+    inverter: f64,
     loss: f64,
     wheels: f64,
     brakes: f64,
@@ -223,33 +323,50 @@ struct Parts {
     shifts: f64,
     /// At the terminals of the battery.
     electric: f64,
+    /// That the battery did not supply.
+    shortfall: f64,
     /// Of the machine while it drives, and then at the wheels.
     electric_drive: f64,
     wheels_drive: f64,
     /// At the wheels while they brake, positive.
     wheels_brake: f64,
+    /// Largest relative residual of an interval.
+    residual: f64,
 }
 
 impl Parts {
     fn add(&mut self, moment: &Moment) {
         self.motor += moment.motor;
+        self.inverter += moment.inverter;
         self.loss += moment.loss;
         self.wheels += moment.wheels;
         self.brakes += moment.brakes;
         self.auxiliaries += moment.auxiliaries;
         self.shifts += moment.shift;
-        self.electric += moment.shaft + moment.motor + moment.auxiliaries;
+        self.electric += moment.shaft + (moment.motor + moment.inverter) + moment.auxiliaries;
+        self.residual = self.residual.max(moment.residual());
         if moment.wheels > 0.0 {
-            self.electric_drive += moment.shaft + moment.motor;
+            self.electric_drive += moment.shaft + (moment.motor + moment.inverter);
             self.wheels_drive += moment.wheels;
         } else {
             self.wheels_brake -= moment.wheels;
         }
     }
 
+    /// What the battery supplied of the energy of an interval: what it did not take, the brakes did.
+    fn supply(&mut self, electric: f64, drawn: Drawn) {
+        let rest = electric - drawn.terminals;
+        if rest > 0.0 {
+            self.shortfall += rest;
+        } else if rest < 0.0 {
+            self.brakes -= rest;
+            self.electric -= rest;
+        }
+    }
+
     /// All but what the battery loses itself.
     fn sum(&self) -> f64 {
-        self.wheels + self.brakes + self.loss + self.motor + self.auxiliaries + self.shifts
+        self.wheels + self.brakes + self.loss + (self.motor + self.inverter) + self.auxiliaries + self.shifts
     }
 }
 
@@ -257,44 +374,59 @@ impl Battery {
     /// The consumption over a simulated cycle of a vehicle; absent without distance, and if the simulation broke off. `oil` is the number of the
     /// oil among the temperatures.
     ///
-    /// The motor takes the power of the reference port at the end of each interval. What the transmission costs is the consumption without its losses at
-    /// the same wheels; where the brakes supply a part of the deceleration, the motor is at its limit and recuperates no more without them.
+    /// A machine of `motor_map` takes the power of the reference port at the end of each interval. What the transmission costs is the consumption without
+    /// its losses at the same wheels; where the brakes supply a part of the deceleration, the motor is at its limit and recuperates no more without them.
     pub fn consumption(&self, driven: &Driven, oil: usize) -> Option<Consumption> {
         let distance = distance(driven).filter(|_| driven.broken.is_none())?;
-        let (mut real, mut ideal) = (Energies::default(), Energies::default());
+        let (mut real, mut ideal) = (Energies::new(&self.entry), Energies::new(&self.entry));
         let mut parts = Parts::default();
         let mut beyond = driven.total.beyond_map;
+        let (mut battery_limited, mut machine_limited) = (0, 0);
         for stretch in &driven.stretches {
             let time = stretch.heats.duration;
-            let of_transmission = stretch.torque * stretch.speed * time;
-            let (motor, outside) = self.motor_loss(stretch, oil);
-            beyond |= outside;
-            let other = motor + self.entry.auxiliaries * time;
+            let machines = self.machines(stretch, oil);
+            let sum = |of: fn(&MachineEnergy) -> f64| machines.iter().map(of).sum::<f64>();
+            let of_transmission = if machines.is_empty() {
+                stretch.torque * stretch.speed * time
+            } else {
+                sum(|machine| machine.shaft)
+            };
             // What a shift dissipates, the machine supplies; what the rotating parts release, it saves.
             let [heat, released] = stretch.shift.map_or([0.0; 2], |shift| [shift.heat, shift.released]);
             let shaft = match stretch.shift {
                 Some(_) => of_transmission + heat - released,
                 None => of_transmission,
             };
+            let (motor, inverter) = (sum(|machine| machine.machine), sum(|machine| machine.inverter));
+            beyond |= machines.iter().any(|machine| machine.outside > 0.0);
+            machine_limited += usize::from(stretch.lacking > 0.0);
+            let auxiliaries = self.entry.auxiliaries * time;
+            let other = (motor + inverter) + auxiliaries;
             let loss = stretch.heats.parts.iter().sum::<f64>();
             let avoidable = if stretch.brakes > 0.0 { 0.0 } else { loss };
-            real.add(&self.entry, shaft + other);
-            ideal.add(&self.entry, shaft - avoidable + other);
+            let drawn = real.add(shaft + other, time);
+            battery_limited += usize::from(drawn.limited);
+            ideal.add(shaft - avoidable + other, time);
             let (wheels, loss) = self.wheels(stretch, of_transmission, loss);
-            let wheels = if stretch.shift.is_some() {
-                wheels - released
-            } else {
-                wheels
+            // Torques that change within the interval: the brakes take what leaves the transmission beyond the demand.
+            let brakes = match stretch
+                .wheels
+                .filter(|_| self.fixed_efficiency.is_none() && !machines.is_empty())
+            {
+                Some(at_end) if stretch.brakes > 0.0 => stretch.brakes + (wheels - at_end),
+                _ => stretch.brakes,
             };
             parts.add(&Moment {
                 shaft,
                 motor,
+                inverter,
                 loss,
-                wheels: wheels - stretch.brakes,
-                brakes: stretch.brakes,
-                auxiliaries: self.entry.auxiliaries * time,
+                wheels: wheels - brakes - released,
+                brakes,
+                auxiliaries,
                 shift: heat,
             });
+            parts.supply(shaft + other, drawn);
         }
         let per = |energy: f64| energy / distance / KWH_PER_100_KM;
         let range = |energies: &Energies| {
@@ -309,15 +441,21 @@ impl Battery {
             wheels_kwh_per_100_km: per(parts.wheels),
             transmission_kwh_per_100_km: per(parts.loss),
             machine_kwh_per_100_km: per(parts.motor),
+            inverter_kwh_per_100_km: per(parts.inverter),
             brakes_kwh_per_100_km: per(parts.brakes),
             auxiliaries_kwh_per_100_km: per(parts.auxiliaries),
             shifts_kwh_per_100_km: driven.is_chosen.then(|| per(parts.shifts)),
-            battery_kwh_per_100_km: per(real.net() - parts.electric),
+            battery_kwh_per_100_km: per(real.net() - (parts.electric - parts.shortfall)),
+            shortfall_kwh_per_100_km: per(parts.shortfall),
+            lacking_kwh_per_100_km: per(driven.stretches.iter().map(|stretch| stretch.lacking).sum()),
+            battery_limited,
+            machine_limited,
             residual_share: (parts.electric - parts.sum()).abs()
                 / (real.drawn + real.recuperated).max(f64::MIN_POSITIVE),
+            interval_residual_share: parts.residual,
             system_efficiency: (parts.electric_drive > 0.0).then(|| parts.wheels_drive / parts.electric_drive),
             recuperated_share: (parts.wheels_brake > 0.0).then(|| real.recuperated / parts.wheels_brake),
-            includes_motor: self.motor.is_some() || !driven.total.motors.is_empty(),
+            includes_motor: self.motor.is_some() || !driven.total.machines.is_empty(),
             motor_beyond_map: beyond,
             range_km,
             range_lost_in_transmission_km: range_km
@@ -339,22 +477,28 @@ impl Battery {
                 };
                 (wheels, shaft - wheels)
             }
-            (None, Some(wheels)) => (wheels, loss),
-            (None, None) => (shaft - loss, loss),
+            (None, Some(wheels)) if stretch.heats.machines.is_empty() => (wheels, loss),
+            // With the energies of machines over the interval, also where the torque changes within it.
+            (None, _) => (shaft - loss, loss),
         }
     }
 
-    /// Loss of the motor in an interval, and whether it is outside its map. \[J\]
-    fn motor_loss(&self, stretch: &Stretch, oil: usize) -> (f64, bool) {
-        match &self.motor {
-            Some(map) => {
-                let oil = stretch.temperatures.get(oil).or(stretch.temperatures.first());
-                let oil = oil.copied().unwrap_or(f64::NAN);
-                let read = map.loss(stretch.speed, stretch.torque, oil);
-                (read.loss * stretch.heats.duration, read.outside)
-            }
-            None => (stretch.heats.motors.iter().flatten().sum(), false),
-        }
+    /// Energies of the machines in an interval: of those that the gearbox describes, or of that of `motor_map`.
+    fn machines(&self, stretch: &Stretch, oil: usize) -> Vec<MachineEnergy> {
+        let Some(motor) = &self.motor else {
+            return stretch.heats.machines.clone();
+        };
+        let oil = stretch.temperatures.get(oil).or(stretch.temperatures.first());
+        let oil = oil.copied().unwrap_or(f64::NAN);
+        let time = stretch.heats.duration;
+        let loss = motor.loss(stretch.speed, stretch.torque, oil);
+        vec![MachineEnergy {
+            shaft: stretch.torque * stretch.speed * time,
+            machine: loss.machine * time,
+            inverter: loss.inverter * time,
+            outside: if loss.outside { time } else { 0.0 },
+            ..MachineEnergy::default()
+        }]
     }
 }
 

@@ -143,7 +143,33 @@ impl Written<'_> {
     }
 
     fn what(self, rig: &Rig, (language, resolved): (&Language, &Resolved)) -> Result<Identifiable, Diagnostic> {
-        let path = &self.entry.path;
+        let together = !self.entry.paths.is_empty() || !self.entry.values.is_empty();
+        let path = match &self.entry.path {
+            Some(_) if together => {
+                let message = "both `path` and `paths` with `values` are stated";
+                return Err(self.fault("path", message, "delete one of them"));
+            }
+            Some(path) => path,
+            None if together => {
+                let varied = Varied::along(language, resolved, &self.entry.paths, &self.entry.values);
+                let varied = varied.map_err(|(key, message, help)| self.fault(&key, message, help))?;
+                if self.entry.over.is_some() {
+                    return Err(self.fault("over", "`over` belongs to one load factor", "delete it"));
+                }
+                return Ok(Identifiable {
+                    unit: varied.unit,
+                    stated: varied
+                        .start()
+                        .filter(|start| (varied.range[0]..=varied.range[1]).contains(start)),
+                    range: varied.range,
+                    target: Target::Path(varied),
+                });
+            }
+            None => {
+                let help = "add `path`, or several `paths` with `values`";
+                return Err(self.fault("path", "no path is stated", help));
+            }
+        };
         if !path.starts_with("rig.") {
             let varied = Varied::new(language, resolved, path, self.entry.tie).map_err(|error| Diagnostic {
                 message: format!("`{path}`: {}", error.message),
@@ -192,7 +218,7 @@ impl Written<'_> {
             Some(value) => self.quantity(what, key, value),
             None if schema.is_finite() => Ok(schema),
             None => {
-                let message = format!("the {name} of `{}` is unknown", self.entry.path);
+                let message = format!("the {name} of `{}` is unknown", self.entry.words());
                 Err(self.fault("path", message, format!("add `{key}: ...`")))
             }
         }
@@ -227,7 +253,9 @@ impl Written<'_> {
     fn start(self, what: &Identifiable, bounds: [f64; 2], stated: Option<f64>) -> Result<f64, Diagnostic> {
         let Some(value) = &self.entry.start else {
             let missing = || self.fault("path", "the gearbox states no start value", "add `start: ...`");
-            return stated.ok_or_else(missing);
+            // Between the rows, if the gearbox is on none of them.
+            let between = self.entry.path.is_none().then_some(0.5 * (bounds[0] + bounds[1]));
+            return stated.or(between).ok_or_else(missing);
         };
         let start = self.quantity(what, "start", value)?;
         if start < bounds[0] || start > bounds[1] {
@@ -264,7 +292,7 @@ impl Written<'_> {
         let Target::Path(varied) = &one.target else {
             return Err(self.fault("over", "a quantity of the rig is one number", "delete `over`"));
         };
-        let path = &self.entry.path;
+        let path = &self.entry.words();
         if !path.ends_with(".radial_factor") && !path.ends_with(".axial_factor") {
             let message = format!("`{path}` is not a load factor");
             let help = "delete `over`, or write `bearings.*.radial_factor` or `axial_factor`";
@@ -316,7 +344,7 @@ impl Identified {
         let start = written.start(&what, bounds, stated)?;
         let one = Self {
             name: name.to_owned(),
-            path: entry.path.clone(),
+            path: entry.words(),
             stated,
             start,
             bounds,

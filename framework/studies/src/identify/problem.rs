@@ -320,6 +320,10 @@ impl<'a> Identification<'a> {
                 Quantity::Loss => "loss",
                 Quantity::LossTorque => "loss_torque",
                 Quantity::Temperature => continue,
+                Quantity::DcPower | Quantity::UnitLoss | Quantity::SystemEfficiency => {
+                    let message = format!("the {what} has no measured values");
+                    return wrong(message, "use efficiency, loss, loss torque or temperature");
+                }
             };
             if powers.len() > 1 && !self.rows.measured.holds(column) {
                 let message = format!("the {what} has no column and is computed from the same values as the others");

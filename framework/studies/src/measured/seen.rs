@@ -116,6 +116,8 @@ impl Seen {
             Quantity::Loss => self.loss,
             Quantity::LossTorque => self.loss_torque,
             Quantity::Temperature => self.oil,
+            // Quantities of the drive unit are not measured.
+            Quantity::DcPower | Quantity::UnitLoss | Quantity::SystemEfficiency => None,
         }
     }
 
@@ -141,6 +143,7 @@ impl Seen {
             Quantity::Loss => watts,
             Quantity::LossTorque => loss_torque.or_else(|| Some(watts? / self.reference)),
             Quantity::Temperature => temperature,
+            Quantity::DcPower | Quantity::UnitLoss | Quantity::SystemEfficiency => None,
         };
         found
             .or_else(|| self.of_instruments(quantity))
@@ -153,7 +156,7 @@ impl Seen {
             Quantity::Efficiency => Some(instruments.efficiency(at, self.calculated[0]?)),
             Quantity::Loss => Some(instruments.loss(at)),
             Quantity::LossTorque => Some(instruments.loss_torque(at, self.calculated[1]?)),
-            Quantity::Temperature => None,
+            Quantity::Temperature | Quantity::DcPower | Quantity::UnitLoss | Quantity::SystemEfficiency => None,
         }
     }
 
@@ -233,6 +236,7 @@ mod tests {
             sums: [0.0; 6],
             parts: Vec::new(),
             terms: Vec::new(),
+            machines: Vec::new(),
             outside: false,
             limits: Vec::new(),
             beyond: false,

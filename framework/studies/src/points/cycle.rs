@@ -7,12 +7,14 @@ mod gears;
 
 use self::gears::{Chooser, Chosen, drive_optimum};
 use super::OilTemperature;
+use crate::codes;
 use crate::duty::{Demand, Interval, Vehicle, input_torque};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{BatchScratch, Noting, Point, PowerFlow};
 use gearloss_framework::flow::{Status, Tolerance};
 use gearloss_framework::loss::Extent;
 use gearloss_framework::sump::STEEPEST;
+use gearloss_framework::machine::{BeyondEntry, MachineEnergy};
 use gearloss_framework::thermal::Unbalanced;
 use gearloss_framework::thermal::network::{Heats, March, Moment, Passed, Scheme, Stage, StepSize, Surroundings};
 use gearloss_framework::transmission::{Case, Transmission, WHEELS};
@@ -78,6 +80,8 @@ pub struct Stretch {
     pub shift: Option<Shift>,
     /// True if every gear is beyond a limit of the choice.
     pub beyond_limits: bool,
+    /// Energy that the vehicle lacks at its wheels because a machine is at its envelope. \[J\]
+    pub lacking: f64,
 }
 
 /// A simulated cycle.
@@ -175,6 +179,8 @@ struct Asked {
     braking: f64,
     /// Power of the brakes, if known beforehand. \[W\]
     brakes: Option<f64>,
+    /// Demanded power at the wheels, if a machine limits it. \[W\]
+    wanted: Option<f64>,
     /// Torque (Nm) and speed (rad/s) of the input without losses, if regeneration is limited unless losses reduce the torque.
     limited: Option<[f64; 2]>,
 }
@@ -336,6 +342,7 @@ fn drive_through(
         driven.calls += scratch.calls();
         super::merge(&mut driven.seen, &scratch.take_totals());
     }
+    kept_envelopes(transmission, &driven)?;
     if let Some(march) = march {
         driven.lost_outside = march.lost_outside().to_vec();
         driven.evaluations += march.evaluations();
@@ -436,6 +443,8 @@ impl Driven {
             None => 0.0,
         };
         let wheels = wheels.map(|member| -taken(member) * interval.duration);
+        let lacking = asked.wanted.zip(wheels);
+        let lacking = lacking.map_or(0.0, |(wanted, wheels)| (wanted * interval.duration - wheels).max(0.0));
         self.total.add(&passed.heats);
         self.brakes += brakes;
         self.stretches.push(Stretch {
@@ -452,6 +461,7 @@ impl Driven {
             gear: planned.chosen.state,
             shift,
             beyond_limits: planned.chosen.beyond,
+            lacking,
         });
     }
 
@@ -523,6 +533,7 @@ fn ask(
                     speed: 0.0,
                     braking: 0.0,
                     brakes: None,
+                    wanted: None,
                     limited: None,
                 });
             };
@@ -540,9 +551,11 @@ fn ask(
                 speed: wheel_speed,
                 braking: (-torque * speed).max(0.0),
                 brakes: None,
+                wanted: None,
                 limited: None,
             };
-            let regained = |torque: f64| vehicle.regained(torque, input_speed, around.vehicle_speed);
+            let t = cases.transmission;
+            let regained = |torque: f64| supplied(t, vehicle, torque, [input_speed, around.vehicle_speed]);
             if let Some(efficiency) = vehicle.efficiency {
                 let wanted = input_torque(torque, ratio.abs(), efficiency);
                 let taken = regained(wanted);
@@ -556,7 +569,8 @@ fn ask(
             }
             let ideal = torque / ratio.abs();
             // Losses reduce the regenerated power, so a demand within the limit without losses is within it with losses.
-            let exceeds = regained(ideal) > ideal;
+            // While driving they increase the torque, which is tried well below an envelope.
+            let exceeds = regained(ideal) != ideal || ideal > 0.5 * most_torque(t, input_speed);
             return Ok(Asked {
                 place: cases.place(gear, At::Wheels)?,
                 limited: exceeds.then_some([ideal, input_speed]),
@@ -570,6 +584,7 @@ fn ask(
         speed,
         braking: 0.0,
         brakes: None,
+        wanted: None,
         limited: None,
     })
 }
@@ -597,8 +612,8 @@ fn limit(
         // The solved point reports that losses have no value.
         return Ok((asked, false));
     };
-    let regained = |torque: f64| vehicle.regained(torque, input_speed, around.vehicle_speed);
-    let exceeds = |torque: f64| regained(torque) > torque;
+    let regained = |torque: f64| supplied(t, vehicle, torque, [input_speed, around.vehicle_speed]);
+    let exceeds = |torque: f64| regained(torque) != torque;
     let slack = 0.5 * (asked_torque - ideal).abs();
     let is_clear = exceeds(asked_torque - slack) == exceeds(asked_torque + slack);
     if !exceeds(asked_torque) {
@@ -606,7 +621,64 @@ fn limit(
     }
     let place = cases.place(gear, At::Input)?;
     let torque = regained(asked_torque);
-    Ok((Asked { place, torque, ..asked }, is_clear))
+    let wanted = (asked_torque > 0.0).then_some(-asked.torque * asked.speed);
+    Ok((
+        Asked {
+            place,
+            torque,
+            wanted,
+            ..asked
+        },
+        is_clear,
+    ))
+}
+
+/// Largest torque of a machine at the reference port, whose envelope limits it, at a speed \[rad/s\]; infinite without one. \[Nm\]
+fn most_torque(t: &Transmission, speed: f64) -> f64 {
+    let machine = t.machines().iter().find(|machine| machine.port == t.reference_port());
+    let envelope = machine.and_then(|machine| machine.envelope());
+    let envelope = envelope.filter(|envelope| envelope.beyond == BeyondEntry::Limit);
+    envelope.map_or(f64::INFINITY, |envelope| envelope.most(speed))
+}
+
+/// A torque at the port \[Nm\] limited to regeneration and to the envelope of the machine, at the speeds of the port \[rad/s\] and of the
+/// vehicle \[m/s\]. \[Nm\]
+fn supplied(t: &Transmission, vehicle: &Vehicle, torque: f64, [port_speed, vehicle_speed]: [f64; 2]) -> f64 {
+    let most = most_torque(t, port_speed);
+    vehicle.regained(torque, port_speed, vehicle_speed).clamp(-most, most)
+}
+
+/// Refuses a cycle in which a machine whose envelope must be kept exceeds it.
+fn kept_envelopes(t: &Transmission, driven: &Driven) -> Result<(), Vec<Diagnostic>> {
+    let machines = t.active_machines(driven.start.len() > 1).enumerate();
+    for (i, machine) in machines {
+        let Some(envelope) = machine.envelope().filter(|e| e.beyond == BeyondEntry::Refuse) else {
+            continue;
+        };
+        let exceeds = |s: &&Stretch| s.heats.machines.get(i).is_some_and(|energy| energy.beyond > 0.0);
+        let mut beyond = driven.stretches.iter().filter(exceeds);
+        let Some(first) = beyond.next() else { continue };
+        let at = if machine.port == t.reference_port() {
+            format!(
+                ": {:.1} Nm at {:.0} rpm, where it reaches {:.1} Nm",
+                first.torque,
+                first.speed * 30.0 / std::f64::consts::PI,
+                envelope.most(first.speed)
+            )
+        } else {
+            String::new()
+        };
+        let message = format!(
+            "the cycle asks for more torque than the machine has in {} intervals, first at {} s{at}",
+            beyond.count() + 1,
+            first.start
+        );
+        let error = Diagnostic::error(format!("{}.envelope", machine.path), message)
+            .help("write `beyond: limit` to limit the torque and count the shortfall, or choose a larger machine")
+            .code(codes::BEYOND_ENVELOPE);
+        return Err(vec![error]);
+    }
+    Ok(())
 }
 
 /// The operating point of a demand at the inclination of its interval.
@@ -678,11 +750,16 @@ fn steady(cases: &mut Cases<'_>, planned: &Planned<'_>, driven: &mut Driven) -> 
         heats.flows = steady.leaving.flows * duration;
     }
     let members = 0..scratch.speeds().len();
+    let port_torques: Vec<f64> = members.map(|member| scratch.port_torque(member)).collect();
+    let machines = t.machines_at(scratch.speeds(), &port_torques, warm.temperatures());
+    heats.machines = (machines.iter())
+        .map(|state| MachineEnergy::lasting(state, duration))
+        .collect();
     Ok(Passed {
         heats,
         temperatures: warm.temperatures().to_vec(),
         speeds: scratch.speeds().to_vec(),
-        port_torques: members.map(|member| scratch.port_torque(member)).collect(),
+        port_torques,
         status: scratch.status(),
     })
 }

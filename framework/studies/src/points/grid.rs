@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use super::temperature::Found;
-use super::{OilTemperature, Piece, solve_pieces, take_points};
+use super::{OilTemperature, Piece, UnitPoint, solve_pieces, take_points};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::flow::Status;
 use gearloss_framework::loss::{Extent, MOST_TERMS, Undefined};
+use gearloss_framework::machine::MachineState;
 use gearloss_framework::thermal::Outcome as ThermalOutcome;
 use gearloss_framework::transmission::{Case, Transmission};
 use serde::{Deserialize, Serialize};
@@ -173,6 +174,8 @@ pub struct PointResult {
     pub parts: Vec<f64>,
     /// The same by the terms of their models, if requested. \[W\]
     pub terms: Vec<[f64; MOST_TERMS]>,
+    /// The active machines; empty without any, and without a temperature or a power flow.
+    pub machines: Vec<MachineState>,
     /// True if a model is outside its stated range.
     pub outside: bool,
     /// Quantities that the study limits, in the order of its limits at points; NaN where one is unknown, empty without limits.
@@ -204,6 +207,12 @@ impl PointResult {
         self.sums = [0.0; 6];
         self.parts.fill(0.0);
         self.terms.clear();
+        self.machines.clear();
+    }
+
+    /// The drive unit; absent without machines, and without a loss.
+    pub fn unit(&self) -> Option<UnitPoint> {
+        UnitPoint::new(&self.machines, self.loss?)
     }
 }
 

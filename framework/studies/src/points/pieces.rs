@@ -57,6 +57,7 @@ pub fn take_points(points: &mut Numbered<'_>) -> Vec<PointResult> {
     let taken = |(_, point): &mut (usize, &mut PointResult)| PointResult {
         nodes: std::mem::take(&mut point.nodes),
         limits: std::mem::take(&mut point.limits),
+        machines: std::mem::take(&mut point.machines),
         parts: std::mem::take(&mut point.parts),
         terms: std::mem::take(&mut point.terms),
         ..**point

@@ -3,9 +3,10 @@
 use gearloss_framework::evaluate::{Point, PowerFlow, Scratch, Solution};
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::loss::Extent;
+use gearloss_framework::machine::{Machine, MachineState};
 use gearloss_framework::transmission::{Case, Transmission};
 
-use super::{Found, Note, OilTemperature, SelfLocking, notes, self_locking};
+use super::{Found, Note, OilTemperature, SelfLocking, UnitPoint, notes, self_locking};
 
 /// A point with its case.
 pub struct PreparedPoint {
@@ -48,6 +49,11 @@ impl PreparedPoint {
             .map(|(heat, seen)| heat.merge(seen))
             .collect();
         SolvedPoint {
+            machines: if found.is_sound() {
+                machines(transmission, &solution, found.temperatures())
+            } else {
+                Vec::new()
+            },
             locking: self_locking(transmission, self, &solution, found.temperatures()),
             notes: notes(transmission, &extents),
             solution,
@@ -62,8 +68,30 @@ pub struct SolvedPoint<'a> {
     pub found: Found,
     /// Speeds, torques, loads and losses.
     pub solution: Solution<'a>,
+    /// The active machines; empty without any.
+    pub machines: Vec<(String, MachineState)>,
     /// The direction in which the transmission locks; absent if it does not.
     pub locking: Option<SelfLocking>,
     /// Quantities that models noted.
     pub notes: Vec<Note>,
+}
+
+impl SolvedPoint<'_> {
+    /// The drive unit; absent without machines, and without a loss.
+    pub fn unit(&self) -> Option<UnitPoint> {
+        let machines: Vec<MachineState> = self.machines.iter().map(|(_, state)| *state).collect();
+        UnitPoint::new(&machines, self.solution.loss()?)
+    }
+}
+
+/// The active machines of a solved point with their paths.
+fn machines(t: &Transmission, solution: &Solution<'_>, temperatures: &[f64]) -> Vec<(String, MachineState)> {
+    if !solution.has_flow() {
+        return Vec::new();
+    }
+    let at = |machine: &Machine| {
+        let (speed, torque) = (solution.speed(machine.member), solution.port_torque(machine.member));
+        (machine.path.clone(), t.machine_at(machine, speed, torque, temperatures))
+    };
+    t.active_machines(temperatures.len() > 1).map(at).collect()
 }

@@ -1,9 +1,12 @@
 //! Points of a field, solved one by one, in batches of one speed and temperature, or in groups of any speeds and temperatures.
 
+use std::sync::Arc;
+
 use super::temperature::find_all;
 use super::{Given, OilTemperature, PointResult, Points, sums};
 use gearloss_framework::evaluate::{BatchScratch, Block, Noting, Point, PowerFlow, Solution};
 use gearloss_framework::loss::Extent;
+use gearloss_framework::machine::{Machine, MachineState, Reached};
 use gearloss_framework::real::{LANES, Lane, Real as _};
 use gearloss_framework::transmission::{Case, Transmission};
 
@@ -27,6 +30,8 @@ pub(super) struct Solver<'a> {
     reference: usize,
     other: Option<usize>,
     at_reference: bool,
+    /// Machines that heat nothing where temperatures are given, and all of them where a network is solved.
+    has_machines: bool,
     /// Component and term with its sum, in the order of addition.
     terms: Vec<(usize, usize, usize)>,
 }
@@ -69,6 +74,7 @@ impl<'a> Solver<'a> {
                 _ => None,
             },
             at_reference: case.torque_ports.first() == Some(&reference),
+            has_machines: !transmission.machines().is_empty(),
             terms: terms.collect(),
         }
     }
@@ -119,6 +125,11 @@ impl<'a> Solver<'a> {
             self.several(alike, space, &mut results);
         }
         solved.extend(rest);
+        if self.has_machines {
+            for point in &mut results {
+                self.lose_in_machines(point);
+            }
+        }
         space.results = results;
         let mut points: Vec<(usize, &mut PointResult)> = solved.into_iter().zip(&mut space.results).collect();
         // Stable sort: the runs are already sorted.
@@ -333,6 +344,11 @@ impl<'a> Solver<'a> {
                     .iter()
                     .map(|terms| std::array::from_fn(|k| terms[k][lane]))
                     .collect(),
+                machines: self.machines(
+                    block.status(lane).has_flow(),
+                    |member| block.speeds(member)[lane],
+                    |member| block.port_torques(member)[lane],
+                ),
                 outside: block.leaves_a_range(lane),
                 limits: Vec::new(),
                 beyond: false,
@@ -340,6 +356,49 @@ impl<'a> Solver<'a> {
                 passes: block.passes(lane),
             });
         }
+    }
+
+    /// Speeds and torques of all machines; their losses follow from the temperatures.
+    fn machines(
+        &self,
+        has_flow: bool,
+        speed: impl Fn(usize) -> f64,
+        torque: impl Fn(usize) -> f64,
+    ) -> Vec<MachineState> {
+        if !self.has_machines || !has_flow {
+            return Vec::new();
+        }
+        let machines = self.transmission.machines().iter();
+        let at = |machine: &Arc<Machine>| MachineState {
+            speed: speed(machine.member),
+            torque: torque(machine.member),
+            machine: 0.0,
+            inverter: 0.0,
+            outside: false,
+            reached: Reached::Continuous,
+        };
+        machines.map(at).collect()
+    }
+
+    /// Adds the losses of the machines at the temperatures of a point.
+    fn lose_in_machines(&self, point: &mut PointResult) {
+        let Some(oil) = point.oil.filter(|_| !point.machines.is_empty()) else {
+            point.machines.clear();
+            return;
+        };
+        let alone = [oil];
+        let temperatures = if point.nodes.is_empty() {
+            &alone[..]
+        } else {
+            &point.nodes
+        };
+        let all = self.transmission.machines().iter().zip(&point.machines);
+        let active = all.filter(|(machine, _)| !machine.only_in_network || temperatures.len() > 1);
+        let lose = |(machine, state): (&Arc<Machine>, &MachineState)| {
+            self.transmission
+                .machine_at(machine, state.speed, state.torque, temperatures)
+        };
+        point.machines = active.map(lose).collect();
     }
 
     /// Results of a solution at a point, at a given oil temperature.
@@ -372,6 +431,11 @@ impl<'a> Solver<'a> {
             sums: totals,
             parts: solution.watts().to_vec(),
             terms,
+            machines: self.machines(
+                solution.has_flow(),
+                |member| solution.speed(member),
+                |member| solution.port_torque(member),
+            ),
             outside: solution.leaves_a_range(),
             limits: Vec::new(),
             beyond: false,

@@ -16,6 +16,8 @@ pub enum By {
     Stage,
     /// By mechanism and term, such as the rolling and sliding terms of a bearing.
     Term,
+    /// Gearbox, machines and inverters of the drive unit, at points.
+    Unit,
     /// By the usual sums: gears, bearings, seals, others; load-dependent and load-independent.
     Sum,
 }

@@ -18,9 +18,20 @@ pub enum Quantity {
     LossTorque,
     /// Oil temperature if found by heat balance.
     Temperature,
+    /// Power out of the DC link into the machines.
+    DcPower,
+    /// Losses of gearbox, machines and inverters.
+    UnitLoss,
+    /// Power at the other ports over the power of the DC link, while generating the reciprocal.
+    SystemEfficiency,
 }
 
 impl Quantity {
+    /// Whether it is one of the drive unit, which needs a machine.
+    pub fn is_of_unit(self) -> bool {
+        matches!(self, Self::DcPower | Self::UnitLoss | Self::SystemEfficiency)
+    }
+
     /// Name in results, with its unit.
     pub fn name(self) -> &'static str {
         match self {
@@ -28,6 +39,9 @@ impl Quantity {
             Self::Loss => "loss_w",
             Self::LossTorque => "loss_torque_nm",
             Self::Temperature => "oil_temperature_degc",
+            Self::DcPower => "dc_power_w",
+            Self::UnitLoss => "unit_loss_w",
+            Self::SystemEfficiency => "system_efficiency",
         }
     }
 
@@ -35,8 +49,8 @@ impl Quantity {
     pub fn unit(self, difference: Difference) -> &'static str {
         match (difference, self) {
             (Difference::Percent, _) => "percent",
-            (Difference::Points, Self::Efficiency) => "points",
-            (Difference::Points, Self::Loss) => "w",
+            (Difference::Points, Self::Efficiency | Self::SystemEfficiency) => "points",
+            (Difference::Points, Self::Loss | Self::DcPower | Self::UnitLoss) => "w",
             (Difference::Points, Self::LossTorque) => "nm",
             (Difference::Points, Self::Temperature) => "k",
         }
@@ -49,11 +63,14 @@ impl Quantity {
             Self::Loss => "loss",
             Self::LossTorque => "loss torque",
             Self::Temperature => "oil temperature",
+            Self::DcPower => "power of the DC link",
+            Self::UnitLoss => "loss of the drive unit",
+            Self::SystemEfficiency => "efficiency of the drive unit",
         };
         let unit = match (difference, self) {
             (Difference::Percent, _) => "%",
-            (Difference::Points, Self::Efficiency) => "percentage points",
-            (Difference::Points, Self::Loss) => "W",
+            (Difference::Points, Self::Efficiency | Self::SystemEfficiency) => "percentage points",
+            (Difference::Points, Self::Loss | Self::DcPower | Self::UnitLoss) => "W",
             (Difference::Points, Self::LossTorque) => "Nm",
             (Difference::Points, Self::Temperature) => "K",
         };
@@ -67,6 +84,9 @@ impl Quantity {
             Self::Loss => point.loss,
             Self::LossTorque => point.loss_torque,
             Self::Temperature => point.oil,
+            Self::DcPower => point.unit().map(|unit| unit.dc_power_w),
+            Self::UnitLoss => point.unit().map(|unit| unit.unit_loss_w),
+            Self::SystemEfficiency => point.unit().and_then(|unit| unit.system_efficiency),
         }
     }
 
@@ -74,7 +94,7 @@ impl Quantity {
     pub fn difference(self, difference: Difference, base: f64, other: f64) -> Option<f64> {
         match (difference, self) {
             (Difference::Percent, _) => (base != 0.0).then(|| 100.0 * (other - base) / base),
-            (Difference::Points, Self::Efficiency) => Some(100.0 * (other - base)),
+            (Difference::Points, Self::Efficiency | Self::SystemEfficiency) => Some(100.0 * (other - base)),
             (Difference::Points, _) => Some(other - base),
         }
     }

@@ -16,7 +16,14 @@ pub struct IdentifiedEntry {
     /// Resolved path; with `*` all matches change together. Of the rig: `rig.torque_offset_in`, `rig.torque_offset_out`,
     /// `rig.support_in.torque`, `rig.support_out.torque`.
     #[schemars(extend("x-refers-to" = "path"))]
-    pub path: String,
+    pub path: Option<String>,
+    /// Several paths instead of one, which move together along `values`; the parameter is the value of the first.
+    #[serde(default)]
+    #[schemars(extend("x-refers-to" = "path"))]
+    pub paths: Vec<String>,
+    /// Rows with a value for each of `paths`. The first value of the rows increases or decreases; between two rows all values are linear in it.
+    #[serde(default)]
+    pub values: Vec<Vec<Value>>,
     /// How several quantities change together.
     #[serde(default)]
     pub tie: Tie,
@@ -39,7 +46,9 @@ impl IdentifiedEntry {
     /// A linear parameter between two values; the start is the value of the gearbox or the rig.
     pub fn between(path: impl Into<String>, from: impl Into<Value>, to: impl Into<Value>) -> Self {
         Self {
-            path: path.into(),
+            path: Some(path.into()),
+            paths: Vec::new(),
+            values: Vec::new(),
             tie: Tie::default(),
             start: None,
             from: Some(from.into()),
@@ -48,6 +57,13 @@ impl IdentifiedEntry {
             prior: None,
             over: None,
         }
+    }
+}
+
+impl IdentifiedEntry {
+    /// The path as written, or several.
+    pub fn words(&self) -> String {
+        self.path.clone().unwrap_or_else(|| self.paths.join(", "))
     }
 }
 

@@ -60,6 +60,15 @@ pub enum LimitedQuantity {
     Range,
     /// The ratio of a gear: speed of the reference port over that of the first other port.
     Ratio,
+    /// The power out of the DC link into all machines, at a point or in any interval of a cycle.
+    DcPower,
+    /// The losses of machines and inverters, at a point or in any interval of a cycle.
+    MachineLoss,
+    /// The losses of gearbox, machines and inverters, at a point or in any interval of a cycle.
+    UnitLoss,
+    /// Power at the other ports over the power of the DC link at a point; over a cycle the energy at the wheels over that of the machines while they
+    /// drive.
+    SystemEfficiency,
     /// A quantity of a rating: at a point, or over each cycle a life after Palmgren and Miner, the minimum or the maximum of the others.
     Rating,
 }
@@ -74,10 +83,10 @@ impl LimitedQuantity {
     pub fn unit(self) -> &'static str {
         match self {
             Self::Temperature => "degC",
-            Self::MeanLoss | Self::Loss => "W",
+            Self::MeanLoss | Self::Loss | Self::DcPower | Self::MachineLoss | Self::UnitLoss => "W",
             Self::Consumption => "kWh/100 km",
             Self::Range => "km",
-            Self::Ratio | Self::Rating | Self::Efficiency => "-",
+            Self::Ratio | Self::Rating | Self::Efficiency | Self::SystemEfficiency => "-",
         }
     }
 }

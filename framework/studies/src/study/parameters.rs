@@ -32,7 +32,7 @@ pub enum NameOr<T> {
 }
 
 /// Keys of a parameter that define a range.
-const OF_RANGE: [&str; 4] = ["path", "tie", "from", "to"];
+const OF_RANGE: [&str; 6] = ["path", "paths", "values", "tie", "from", "to"];
 
 /// The key of an analysis whose entries may be names of parameters of the study, and what an entry then receives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -129,11 +129,17 @@ fn range(name: &str, whole: &Value) -> Result<Value, Diagnostic> {
         let message = format!("`{name}` has several values over torque, but a range is needed");
         return Err(Diagnostic::error("", message).help("write the quantity with its own range"));
     }
-    if !(stated("from") && stated("to")) {
+    // Rows are a range of their own.
+    let rows = whole
+        .get("values")
+        .and_then(Value::as_array)
+        .is_some_and(|rows| !rows.is_empty());
+    if !rows && !(stated("from") && stated("to")) {
         let message = format!("the parameter `{name}` states no range");
         return Err(Diagnostic::error("", message).help(format!("give `parameters.{name}` both `from` and `to`")));
     }
-    let stated_keys = OF_RANGE.iter().filter(|key| stated(key));
+    let is_empty = |key: &str| whole[key].as_array().is_some_and(Vec::is_empty);
+    let stated_keys = OF_RANGE.iter().filter(|key| stated(key) && !is_empty(key));
     Ok(stated_keys
         .map(|key| ((*key).to_owned(), whole[*key].clone()))
         .collect())

@@ -9,11 +9,11 @@ use crate::description::network::{ExchangerEntry, LinkEntry, NetworkEntry};
 use crate::description::{GearboxEntry, NetworkChoice};
 use crate::document::Diagnostic;
 use crate::lubricant::Lubricant;
+use crate::machine::Machine;
 use crate::mechanism::heat_dissipation::HousingPart;
 use crate::mechanism::heat_link::{GearShape, HeatLink, HeatLinkPart};
-use crate::motor::{MotorEntry, MotorMap};
-use crate::registry::{Build, Files};
-use crate::transmission::{AMBIENT, GearSeat, NodeNames, Port};
+use crate::registry::Build;
+use crate::transmission::{AMBIENT, GearSeat, NodeNames};
 
 /// Data of the transmission that a network needs while it is built.
 pub(crate) struct Around<'a> {
@@ -27,10 +27,8 @@ pub(crate) struct Around<'a> {
     pub lubricants: &'a [(String, Arc<Lubricant>)],
     /// The outside of the housing.
     pub housing: &'a HousingPart,
-    /// Ports.
-    pub ports: &'a [Port],
-    /// Files named by the description.
-    pub files: &'a Files,
+    /// Machines with their nodes, if they have some.
+    pub machines: &'a [Arc<Machine>],
 }
 
 impl Network {
@@ -105,11 +103,15 @@ impl Network {
             let path = format!("thermal.network.sources.{id}.into");
             sources.extend(node(&path, &source.into, found).map(|node| (node, source.heat)));
         }
-        let motors: Vec<Motor> = network
-            .motors
-            .iter()
-            .filter_map(|(id, e)| motor(&format!("thermal.network.motors.{id}"), e, around, found))
-            .collect();
+        let motors = around.machines.iter().filter_map(|machine| {
+            let [rotor, stator] = machine.nodes?;
+            Some(Motor {
+                machine: Arc::clone(machine),
+                rotor,
+                stator,
+            })
+        });
+        let motors = motors.collect();
         let built = Self {
             names: around.names.names().to_vec(),
             capacities: std::iter::once(0.0).chain(all().map(|n| n.heat_capacity)).collect(),
@@ -301,46 +303,6 @@ fn rate(
             None
         }
     }
-}
-
-fn motor(path: &str, entry: &MotorEntry, around: &Around<'_>, found: &mut Vec<Diagnostic>) -> Option<Motor> {
-    let rotor = node_of(around.names, &format!("{path}.rotor"), &entry.rotor, found);
-    let stator = node_of(around.names, &format!("{path}.stator"), &entry.stator, found);
-    let port = around.ports.iter().find(|p| p.name == entry.port);
-    if port.is_none() {
-        let ids: Vec<&str> = around.ports.iter().map(|p| p.name.as_str()).collect();
-        found.push(dangling(&format!("{path}.port"), "port", &entry.port, &ids));
-    }
-    if let Err(fault) = entry.rotor_share.share_at(0.0) {
-        found.push(Diagnostic::error(format!("{path}.rotor_share"), fault.message).help(fault.help));
-    }
-    let map = match around.files.bytes(entry.map.name()) {
-        Err(reason) => {
-            let error = Diagnostic::error(format!("{path}.map"), reason);
-            found.push(error.help("file names are relative to the gearbox document"));
-            None
-        }
-        Ok(bytes) => match MotorMap::read_stated(&entry.map, &bytes) {
-            Ok(map) => Some(map),
-            Err(faults) => {
-                for fault in faults {
-                    let message = format!("{}: {}", entry.map.name(), fault.message);
-                    found.push(Diagnostic::error(format!("{path}.map"), message).help(fault.help));
-                }
-                None
-            }
-        },
-    };
-    let map = map?;
-    Some(Motor {
-        path: path.to_owned(),
-        notes: map.notes.clone(),
-        map,
-        rotor_share: entry.rotor_share.clone(),
-        member: port?.member,
-        rotor: rotor?,
-        stator: stator?,
-    })
 }
 
 fn exchanger(

@@ -8,6 +8,7 @@ use super::stepping::{Heated, Scheme, StepSize, Stepping, Trial};
 use crate::evaluate::{Asked, BatchScratch, Noting, Point, Snapshot};
 use crate::flow::{Start, Status, Tolerance};
 use crate::loss::Extent;
+use crate::machine::{MachineEnergy, MachineState};
 use crate::thermal::Unbalanced;
 use crate::transmission::{Case, Transmission};
 
@@ -36,6 +37,8 @@ pub struct Heats {
     pub output: f64,
     /// True if a motor was outside its map.
     pub beyond_map: bool,
+    /// Energies of the active machines.
+    pub machines: Vec<MachineEnergy>,
 }
 
 impl Heats {
@@ -77,6 +80,11 @@ impl Heats {
         one(&mut self.input, more.input);
         one(&mut self.output, more.output);
         self.beyond_map |= more.beyond_map;
+        let count = self.machines.len().max(more.machines.len());
+        self.machines.resize(count, MachineEnergy::default());
+        for (sum, x) in self.machines.iter_mut().zip(&more.machines) {
+            sum.combine(factor, x, share);
+        }
     }
 }
 
@@ -131,6 +139,8 @@ pub(super) struct Warm {
     pub sources: f64,
     /// True if a motor was outside its map.
     pub beyond_map: bool,
+    /// The active machines.
+    pub machines: Vec<MachineState>,
 }
 
 /// How the losses at temperatures are found.
@@ -178,6 +188,7 @@ impl Transmission {
         warm.heat.resize(network.names().len(), 0.0);
         network.add_parts(self, point, &mut warm.heat);
         warm.beyond_map = network.add_motors(temperatures, point, &mut warm.heat, &mut warm.motors);
+        warm.machines = self.machines_at(&point.speeds, &point.port_torques, temperatures);
         warm.sources = 0.0;
         for (node, watts) in network.sources() {
             warm.heat[*node] += watts;

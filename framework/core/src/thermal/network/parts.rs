@@ -5,9 +5,9 @@ use std::sync::Arc;
 use super::faults;
 use crate::document::Diagnostic;
 use crate::lubricant::Lubricant;
+use crate::machine::Machine;
 use crate::mechanism::Slot;
 use crate::mechanism::heat_link::{HeatLink, HeatLinkPart};
-use crate::motor::{MotorMap, RotorShare};
 use crate::thermal::Arrangement;
 use crate::transmission::HeatPath;
 
@@ -74,14 +74,9 @@ pub(super) struct Exchanger {
     pub(super) coolant_temperature: f64,
 }
 
-/// An electric motor at a port.
+/// An electric machine that heats two nodes.
 pub(super) struct Motor {
-    pub(super) path: String,
-    /// Notes of reading its map.
-    pub(super) notes: Vec<String>,
-    pub(super) map: MotorMap,
-    pub(super) rotor_share: RotorShare,
-    pub(super) member: usize,
+    pub(super) machine: Arc<Machine>,
     pub(super) rotor: usize,
     pub(super) stator: usize,
 }
@@ -160,8 +155,8 @@ impl Network {
     pub(crate) fn warnings(&self) -> Vec<Diagnostic> {
         let mut warnings = Vec::new();
         for motor in &self.motors {
-            let path = format!("{}.map", motor.path);
-            let notes = motor.notes.iter();
+            let path = format!("{}.map", motor.machine.path);
+            let notes = motor.machine.notes.iter();
             warnings.extend(notes.map(|note| Diagnostic::warning(path.clone(), note.clone())));
         }
         let flows = self.flows.iter().copied();
@@ -200,7 +195,7 @@ impl Network {
     }
     /// Paths of the motors.
     pub fn motors(&self) -> impl ExactSizeIterator<Item = &str> {
-        self.motors.iter().map(|m| m.path.as_str())
+        self.motors.iter().map(|m| m.machine.path.as_str())
     }
     /// Heat from other sources by node. \[W\]
     pub fn sources(&self) -> &[(usize, f64)] {

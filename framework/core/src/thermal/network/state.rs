@@ -34,12 +34,12 @@ impl Network {
         let mut outside = false;
         losses.clear();
         for motor in &self.motors {
-            let (speed, torque) = (point.speeds[motor.member], point.port_torques[motor.member]);
-            // The windings are in the stator.
-            let found = motor.map.loss(speed, torque, temperatures[motor.stator]);
+            let machine = &motor.machine;
+            let (speed, torque) = (point.speeds[machine.member], point.port_torques[machine.member]);
+            // The windings are in the stator; the inverter has a cooler of its own.
+            let found = machine.loss(speed, torque, temperatures[motor.stator]);
             outside |= found.outside;
-            let share = motor.rotor_share.share_at(speed.abs()).unwrap_or(0.0);
-            let losses_of_motor = [share * found.loss, (1.0 - share) * found.loss];
+            let losses_of_motor = machine.in_rotor_and_stator(speed, found.machine);
             heat[motor.rotor] += losses_of_motor[0];
             heat[motor.stator] += losses_of_motor[1];
             losses.push(losses_of_motor);

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::circuit::Leaving;
 use super::march::{Heats, Passed, Search, Warm};
+use crate::machine::MachineEnergy;
 use crate::thermal::Unbalanced;
 
 /// Tolerance between the temperatures at the end of a step and those of its losses. \[K\]
@@ -297,6 +298,9 @@ impl Trial {
             input: input * length,
             output: output * length,
             beyond_map: warm.beyond_map,
+            machines: (warm.machines.iter())
+                .map(|state| MachineEnergy::lasting(state, length))
+                .collect(),
         }
     }
 

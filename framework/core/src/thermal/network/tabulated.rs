@@ -119,31 +119,29 @@ impl Network {
     /// Member, rotor and stator node of a motor, by its number.
     pub fn motor_nodes(&self, motor: usize) -> (usize, [usize; 2]) {
         let seat = &self.motors[motor];
-        (seat.member, [seat.rotor, seat.stator])
+        (seat.machine.member, [seat.rotor, seat.stator])
     }
 
     /// Losses of a motor in rotor and stator at a speed (rad/s), a torque (Nm) and a temperature of its windings (degC). \[W\]
     pub fn motor_loss(&self, motor: usize, speed: f64, torque: f64, temperature: f64) -> [f64; 2] {
-        let seat = &self.motors[motor];
-        let loss = seat.map.loss(speed, torque, temperature).loss;
-        let share = seat.rotor_share.share_at(speed.abs()).unwrap_or(0.0);
-        [share * loss, (1.0 - share) * loss]
+        let machine = &self.motors[motor].machine;
+        machine.in_rotor_and_stator(speed, machine.loss(speed, torque, temperature).machine)
     }
 
     /// How far a speed (rad/s) and a torque (Nm) are outside the map of a motor, relative to its border. \[-\]
     pub fn motor_excess(&self, motor: usize, speed: f64, torque: f64) -> f64 {
-        self.motors[motor].map.excess(speed, torque)
+        self.motors[motor].machine.map().map_or(0.0, |map| map.excess(speed, torque))
     }
 
-    /// Speeds (rad/s) and torques (Nm) of the map of a motor, both ascending and not negative.
-    pub fn motor_axes(&self, motor: usize) -> [Vec<f64>; 2] {
-        let nodes = self.motors[motor].map.nodes();
-        [0, 1].map(|column| {
+    /// Speeds (rad/s) and torques (Nm) of the map of a motor, both ascending and not negative; `None` without a map.
+    pub fn motor_axes(&self, motor: usize) -> Option<[Vec<f64>; 2]> {
+        let nodes = self.motors[motor].machine.map()?.nodes();
+        Some([0, 1].map(|column| {
             let mut axis: Vec<f64> = nodes.iter().map(|(place, _)| place[column]).collect();
             axis.sort_by(f64::total_cmp);
             axis.dedup();
             axis
-        })
+        }))
     }
 }
 

@@ -78,9 +78,12 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             page.careful
                 .push(format!("{of} ends at {} s: {}", short(broken.time_s), broken.reason));
         }
-        if duty.motors_beyond_map {
-            page.careful.push(format!("{of}: a motor was outside its map"));
-        }
+        let cautions = duty
+            .machines
+            .iter()
+            .flat_map(|machine| machine.cautions(duty.duration_s));
+        let cautions: Vec<String> = cautions.map(|text| format!("{of}: {text}")).collect();
+        page.careful.extend(cautions);
     }
     page.headline = (!words.is_empty()).then(|| format!("Mean loss {}", words.join("; ")));
 }

@@ -92,8 +92,9 @@ pub fn draw(outcome: &MapOutcome, page: &mut Page) {
                     .given()
                     .map_or_else(String::new, |oil| format!(", oil {oil} °C"));
                 let title = format!(
-                    "{name}: {} in {}, models {set}, gear {}{oil}{}",
+                    "{name}: {}{} in {}, models {set}, gear {}{oil}{}",
                     quantity.name,
+                    outcome.of.words(),
                     quantity.unit,
                     map.gear,
                     map.bound_words()

@@ -37,7 +37,8 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             .map(|share| 100.0 * share)
     }) {
         words.push(format!(
-            "the efficiency is {} %, highest at {}",
+            "the efficiency{} is {} %, highest at {}",
+            outcome.of.words(),
             range(low.0, high.0, 1),
             at(high.1)
         ));
@@ -49,7 +50,11 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
         );
     }
     if let Some([low, high]) = of(|point| point.loss) {
-        words.push(format!("the loss is {} W", range(low.0, high.0, 0)));
+        words.push(format!(
+            "the loss{} is {} W",
+            outcome.of.words(),
+            range(low.0, high.0, 0)
+        ));
         page.key_figure(
             "loss",
             range(low.0, high.0, 0),

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::{Built, Engine, Head, Outcome, Plan, Planner, Run, Runs, Stopped, Work};
+use crate::codes;
 use crate::points::{Given, GridResult, Note, PointResult, Points, TotalLoss, notes_with_shares};
 use crate::study::By;
 use crate::table::Table;
@@ -41,10 +42,14 @@ impl As {
     }
 
     /// Factor from watts to the unit at a point; absent for a share of zero loss.
-    fn scale(self, point: &PointResult) -> Option<f64> {
+    fn scale(self, by: By, point: &PointResult) -> Option<f64> {
+        let loss = match by {
+            By::Unit => point.unit().map(|unit| unit.unit_loss_w),
+            _ => point.loss,
+        };
         match self {
             Self::Watts => Some(1.0),
-            Self::Percent => point.loss.filter(|loss| *loss != 0.0).map(|loss| 100.0 / loss),
+            Self::Percent => loss.filter(|loss| *loss != 0.0).map(|loss| 100.0 / loss),
         }
     }
 }
@@ -276,6 +281,7 @@ impl<'a> BarsPlan<'a> {
         rows: Vec<RowOfBars>,
     ) -> Result<(), Stopped> {
         let terms = self.by == By::Term;
+        has_unit(cx, self.by, b)?;
         self.runs.0.push(Run::new(cx, b, Points { terms, ..points })?);
         self.rows.push(rows);
         Ok(())
@@ -302,6 +308,19 @@ impl<'a> BarsPlan<'a> {
     }
 }
 
+/// Rejects the shares of a drive unit that a gearbox does not have.
+///
+/// # Errors
+/// There.
+pub fn has_unit(cx: &Planner<'_>, by: By, b: &Built<'_>) -> Result<(), Stopped> {
+    if by != By::Unit || cx.has_machines(&b.transmission) {
+        return Ok(());
+    }
+    let message = format!("`{}` has no machine", b.name);
+    let help = "describe it under `machines` of the gearbox, or choose other shares";
+    Err(cx.wrong_as(codes::NO_MACHINE, &format!("{}.by", cx.path()), message, help))
+}
+
 /// The breakdown of a solved run.
 fn of_run(
     by: By,
@@ -315,7 +334,7 @@ fn of_run(
     let (t, gear) = (&run.built.transmission, &run.points.gear);
     let shares = Shares::new(t, by).under(names);
     let point = |p: &PointResult| {
-        let scale = unit.scale(p);
+        let scale = unit.scale(by, p);
         let scaled = |stack: Vec<f64>, scale: f64| stack.into_iter().map(|w| w * scale).collect();
         let losses = scale.and_then(|scale| Some(scaled(shares.stack(p)?, scale)));
         let seen = scale.and_then(|scale| measured(p, gear).map(|(loss, accuracy)| (loss * scale, accuracy * scale)));

@@ -16,6 +16,7 @@ use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::trial::Trial;
 use crate::analyses::{Built, Engine, Plan, Planner, Run, Runs, Stopped, Work};
+use crate::codes;
 use crate::points::{GridResult, Note, PointResult, Statistics, TotalLoss, notes, notes_with_shares};
 use crate::study::{By, Difference, Grid, Quantity};
 use crate::table::Table;
@@ -129,6 +130,12 @@ impl<'a> GridPlan<'a> {
         let grid = cx.study.grid(&path, grid_name)?;
         check_grid(cx, grid_name, grid)?;
         let built = cases(cx, entry, gearbox, &names(entry, base))?;
+        let without = built.iter().find(|b| !cx.has_machines(&b.transmission));
+        if let Some(b) = without.filter(|_| entry.quantity.is_of_unit()) {
+            let message = format!("`{}` has no machine", b.name);
+            let help = "describe it under `machines` of the gearbox, or compare a quantity of the gearbox";
+            return Err(cx.wrong_as(codes::NO_MACHINE, &format!("{path}.quantity"), message, help));
+        }
         let gear = cx.one_gear(&path, grid, &built[0].transmission)?;
         let run = |b: &Arc<Built<'a>>| {
             let (torques, speeds) = grid_axes(cx, grid_name, grid, &b.transmission)?;

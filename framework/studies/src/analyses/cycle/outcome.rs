@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::CycleExport;
 use super::bearings::BearingLoads;
 use super::gears::GearsOfDuty;
+use super::machines::MachineOfDuty;
 use super::ratings::RatedOverTime;
 use super::tables::NetworkTables;
 use crate::analyses::Head;
@@ -78,6 +79,9 @@ pub struct DutyOfSet {
     /// Least and greatest inclination of the oil by grade and acceleration; absent unless the housing states its direction of travel. [deg]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inclination_deg: Option<[f64; 2]>,
+    /// The machines that the gearbox describes; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub machines: Vec<MachineOfDuty>,
     /// Temperatures of the nodes, or of the oil only.
     pub nodes: Vec<TemperatureOfNode>,
     /// Note of the study on the cycle.

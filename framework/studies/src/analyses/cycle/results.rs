@@ -3,6 +3,7 @@
 use gearloss_framework::transmission::Transmission;
 
 use super::ReferenceLoss;
+use super::machines::MachineOfDuty;
 use super::outcome::{
     BrokenOff, DutyOfSet, EnergyOfDuty, EnergyPerDistance, HeatOfDuty, HeatOfExchanger, HeatOfMotor, HeatOfNode,
     IntervalOfDuty, ReferenceOfDuty, TemperatureOfNode,
@@ -51,6 +52,7 @@ pub fn duty(
             let all = driven.stretches.iter().map(|s| s.inclination.to_degrees());
             all.fold([0.0; 2], |[low, high]: [f64; 2], at| [low.min(at), high.max(at)])
         }),
+        machines: MachineOfDuty::all(t, driven),
         nodes: nodes
             .into_iter()
             .zip(measured)

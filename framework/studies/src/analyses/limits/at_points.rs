@@ -205,6 +205,12 @@ impl Limit {
             Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
             Owner::Gearbox if self.quantity == LimitedQuantity::Efficiency => point.efficiency,
             Owner::Gearbox => point.loss,
+            Owner::Unit => point.unit().and_then(|unit| match self.quantity {
+                LimitedQuantity::DcPower => Some(unit.dc_power_w),
+                LimitedQuantity::MachineLoss => Some(unit.machine_loss_w + unit.inverter_loss_w),
+                LimitedQuantity::UnitLoss => Some(unit.unit_loss_w),
+                _ => unit.system_efficiency,
+            }),
             Owner::Cycle(_) | Owner::AllCycles | Owner::OtherCycle => None,
             Owner::Rating { rating, symbol, .. } => {
                 let ratings = rated.iter().filter(|rated| rated.plugin.entry.name == *rating);

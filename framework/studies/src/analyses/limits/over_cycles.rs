@@ -3,7 +3,8 @@
 use gearloss_framework::attach::dangling;
 use gearloss_framework::description::Ordered;
 use gearloss_framework::evaluate::Ratings;
-use gearloss_framework::thermal::network::Network;
+use gearloss_framework::machine::MachineEnergy;
+use gearloss_framework::thermal::network::{Heats, Network};
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
@@ -65,6 +66,17 @@ impl Limit {
                 let all = driven.iter().flat_map(|cycle| self.of_gearbox(cycle));
                 Some(self.worst(all))
             }
+            Owner::Unit if self.quantity == LimitedQuantity::SystemEfficiency => {
+                let of_cycle = |cycle: &Driven| duties.consumption(t, cycle)?.system_efficiency;
+                Some(self.worst(driven.iter().filter_map(of_cycle)))
+            }
+            Owner::Unit => {
+                let moments = driven.iter().flat_map(|cycle| &cycle.stretches);
+                let moments = moments
+                    .map(|stretch| &stretch.heats)
+                    .filter(|heats| heats.duration > 0.0);
+                Some(self.worst(moments.map(|heats| self.of_unit(heats))))
+            }
             Owner::Gear(gear) => t.ratios(*gear).first().and_then(|(_, ratio)| *ratio).map(f64::abs),
             Owner::Cycle(cycle) => self.of_cycle(duties, t, &driven[*cycle]),
             Owner::AllCycles => {
@@ -96,6 +108,20 @@ impl Limit {
             LimitedQuantity::Range => duties.consumption(t, driven)?.range_km,
             _ => mean_loss(driven),
         }
+    }
+
+    /// A power of the drive unit in an interval. \[W\]
+    fn of_unit(&self, heats: &Heats) -> f64 {
+        let electric = |machine: &MachineEnergy| match self.quantity {
+            LimitedQuantity::DcPower => machine.electric(),
+            _ => machine.machine + machine.inverter,
+        };
+        let machines: f64 = heats.machines.iter().map(electric).sum();
+        let gearbox = match self.quantity {
+            LimitedQuantity::UnitLoss => heats.parts.iter().sum::<f64>(),
+            _ => 0.0,
+        };
+        (machines + gearbox) / heats.duration
     }
 
     /// The loss of every moment, or the efficiency of a cycle.

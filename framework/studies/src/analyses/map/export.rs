@@ -38,6 +38,11 @@ pub trait ExportFormat: Sync {
         false
     }
 
+    /// Whether a table may be that of a drive unit or of its machines, whose losses are not all between two shafts.
+    fn takes_machines(&self) -> bool {
+        false
+    }
+
     /// The maps in the file of a map, for the interpolation error that is reported with it.
     fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
         vec![map.map]

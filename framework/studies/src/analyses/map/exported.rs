@@ -3,9 +3,11 @@
 use super::super::units::speed_ratio;
 use super::super::{Engine, Planner, Stopped};
 use super::Map;
+use super::entry::MapOf;
 use super::export::{ExportData, ExportName, Refusal};
 use super::plan::Planned;
 use super::shown::{LossAt, LossGrid};
+use crate::codes;
 use crate::points::{Given, Statistics, take_points};
 
 impl ExportData {
@@ -65,10 +67,23 @@ impl ExportData {
 }
 
 /// Rejects unsuitable grids before computation.
-pub(super) fn check(cx: &Planner<'_>, formats: &[ExportName], planned: &[Planned<'_>]) -> Result<(), Stopped> {
+pub(super) fn check(
+    cx: &Planner<'_>,
+    (formats, of): (&[ExportName], MapOf),
+    planned: &[Planned<'_>],
+) -> Result<(), Stopped> {
     let path = format!("{}.export", cx.path());
     let conditions = &cx.study.entry.conditions;
     for name in formats {
+        if !of.is_gearbox() && !name.format().takes_machines() {
+            let message = format!(
+                "`{}` describes losses between two shafts, not those{}",
+                name.format().name(),
+                of.words()
+            );
+            let help = "export `mat`, `matlab` or `modelica`, or delete `of`";
+            return Err(cx.wrong_as(codes::NO_MACHINE, &path, message, help));
+        }
         for plan in planned {
             let t = &plan.run.built.transmission;
             let reference = &t.ports()[t.reference_port()].name;
@@ -99,7 +114,7 @@ fn losses(engine: &Engine<'_>, map: &Map<'_>, list: Vec<Given>) -> Result<Vec<Lo
         return Ok(losses);
     }
     engine.solve_pieces(&map.run.with_list(list), &take_points, &mut |piece| {
-        losses.extend(piece.points().map(LossAt::from));
+        losses.extend(piece.points().map(|point| LossAt::new(map.of, point)));
         Ok(())
     })?;
     Ok(losses)

@@ -8,6 +8,7 @@ use serde_json::Value;
 use super::super::numbers::word;
 use super::super::{Head, Outcome};
 use super::best::BestGears;
+use super::entry::MapOf;
 use super::export::{ExportData, ExportName};
 use super::points::MapPoints;
 use super::shown::ShownMap;
@@ -23,6 +24,9 @@ pub struct MapOutcome {
     /// Provenance.
     #[serde(flatten)]
     pub head: Head,
+    /// Whose efficiency and loss the figures and exported tables show; absent of the gearbox.
+    #[serde(skip_serializing_if = "MapOf::is_gearbox")]
+    pub of: MapOf,
     /// One for each gear, each model set and each combination of bound values.
     pub maps: Vec<MapOfSet>,
     /// The points of all maps; without rows if these were passed to [`Engine::sink`].
@@ -81,6 +85,9 @@ pub struct MapOfSet {
     /// The points.
     #[schemars(with = "Vec<super::points::MapPoint<'static>>")]
     pub points: MapPoints,
+    /// Whose efficiency and loss is shown.
+    #[serde(skip)]
+    pub of: MapOf,
     /// Origin of the oil temperature.
     #[serde(skip)]
     pub oil: OilTemperature,

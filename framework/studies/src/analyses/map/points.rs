@@ -16,7 +16,7 @@ use super::super::limits::at_points::LimitColumn;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
 use crate::correction::{Corrected, ReadyCorrection};
-use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss};
+use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss, UnitPoint};
 use crate::table::{Column, Table, Values};
 
 /// Column of the gear.
@@ -74,11 +74,13 @@ fn corrected((point, correction): &PointWith<'_>) -> Option<[f64; 6]> {
         whole * speed,
         0.5 * (high - low) * speed,
     ])
+    /// Whether there are columns of the drive unit.
+    has_unit: bool,
 }
 
 impl RowsOf {
     /// Of no map: for the columns of a table without rows.
-    pub fn none(bound: &[String], parts: &[String], limits: &[LimitColumn]) -> Self {
+    pub fn none(bound: &[String], parts: &[String], limits: &[LimitColumn], has_unit: bool) -> Self {
         Self {
             model_set: String::new(),
             gear: String::new(),
@@ -86,10 +88,17 @@ impl RowsOf {
             parts: parts.iter().map(|part| (part.clone(), None)).collect(),
             limits: limits.to_vec(),
             correction: None,
+            has_unit,
         }
     }
 
-    pub fn new(run: &Run<'_>, bound: &[(String, Value)], parts: &[String], limits: &[LimitColumn]) -> Self {
+    pub fn new(
+        run: &Run<'_>,
+        bound: &[(String, Value)],
+        parts: &[String],
+        limits: &[LimitColumn],
+        has_unit: bool,
+    ) -> Self {
         let all = run.built.transmission.parts();
         let place = |part: &String| all.iter().position(|o| o.path == *part);
         Self {
@@ -99,6 +108,7 @@ impl RowsOf {
             parts: parts.iter().map(|part| (part.clone(), place(part))).collect(),
             limits: limits.to_vec(),
             correction: None,
+            has_unit,
         }
     }
 
@@ -149,6 +159,11 @@ impl RowsOf {
             .each(columns.iter().enumerate(), |table, (i, (name, unit, meaning))| {
                 table.number(*name, *unit, *meaning, |row: &PointWith<'_>| {
                     corrected(row).map(|values| values[i])
+                })
+            })
+            .each(UnitPoint::columns(self.has_unit), |table, column| {
+                table.number(column.name, column.unit, column.meaning, |(p, _)| {
+                    p.unit().as_ref().and_then(column.read)
                 })
             })
             .each(self.limits.iter().enumerate(), |table, (i, limit)| {
@@ -251,6 +266,7 @@ pub struct MapPoints {
     limits: Vec<LimitColumn>,
     /// Whether the gears of the points differ.
     names_gears: bool,
+    has_unit: bool,
 }
 
 /// A point.
@@ -290,6 +306,9 @@ pub struct MapPoint<'a> {
     /// Correction of the loss torque and the corrected loss; absent without a correction, and outside of the measured region.
     #[serde(skip_serializing_if = "Option::is_none")]
     correction: Option<CorrectionOfPoint>,
+    /// The drive unit; absent without machines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unit: Option<UnitPoint>,
     /// Limited quantities, by the names of the limits; absent if the study has none at points.
     #[serde(skip_serializing_if = "Ordered::is_empty")]
     limit_values: Ordered<Option<f64>>,
@@ -326,10 +345,11 @@ impl MapPoints {
         parts: Vec<usize>,
         rows: Range<usize>,
         undefined: Vec<UndefinedLoss>,
-        limits: &[LimitColumn],
+        (limits, has_unit): (&[LimitColumn], bool),
     ) -> Self {
         Self {
             limits: limits.to_vec(),
+            has_unit,
             table: table.clone(),
             first,
             parts,
@@ -386,6 +406,19 @@ impl MapPoints {
         limited.iter().map(value).collect()
     }
 
+    /// The quantities of the drive unit, whose columns precede those of the limits.
+    fn unit(&self, row: usize) -> Option<UnitPoint> {
+        if !self.has_unit {
+            return None;
+        }
+        let first = self.table.columns.len() - self.limits.len() - UnitPoint::COLUMNS.len();
+        let value = |i: usize| {
+            let numbers = self.table.columns[first + i].numbers()?;
+            Some(numbers[row]).filter(|x| !x.is_nan())
+        };
+        UnitPoint::of_columns([value(0), value(1), value(2), value(3), value(4)])
+    }
+
     fn sums(&self, row: usize) -> Option<Sums> {
         let sum = |i: usize| self.number(FIXED + i, row);
         Some([sum(0)?, sum(1)?, sum(2)?, sum(3)?, sum(4)?, sum(5)?].into())
@@ -419,6 +452,7 @@ impl MapPoints {
                 .map(|part| number(FIXED + SUMS.len() + part))
                 .collect(),
             correction: self.correction(row),
+            unit: self.unit(row),
             limit_values: LimitColumn::by_name(&self.limits, &self.limits_at(row)),
             undefined: undefined.map(|i| Missing {
                 part: &self.undefined[i].part,

@@ -2,6 +2,7 @@
 
 use super::super::numbers::spread_over;
 use super::axes::Axes;
+use super::entry::MapOf;
 use crate::points::{Field, Numbered, PointResult};
 
 /// Grids with more points are shown by a selection of their rows and columns.
@@ -38,17 +39,18 @@ pub struct ShownPoint {
     pub limits: Vec<f64>,
 }
 
-impl From<&PointResult> for ShownPoint {
-    fn from(point: &PointResult) -> Self {
+impl ShownPoint {
+    fn new(of: MapOf, point: &PointResult) -> Self {
+        let [efficiency, loss, loss_torque] = of.read(point);
         Self {
             gear: None,
             torque: point.torque,
             speed: point.speed,
             oil: point.oil,
-            efficiency: point.efficiency,
-            loss: point.loss,
-            loss_torque: point.loss_torque,
-            sums: point.sums,
+            efficiency,
+            loss,
+            loss_torque,
+            sums: of.sums(point),
             outside: point.outside,
             limits: point.limits.clone(),
         }
@@ -79,6 +81,8 @@ pub struct ShownMap {
 
 /// Selection of points.
 pub struct Selection {
+    /// Whose efficiency and loss is shown.
+    of: MapOf,
     /// Whether the values of all positions are stored.
     whole: bool,
     /// Shown part of a grid; absent for a list, which is shown completely.
@@ -116,13 +120,15 @@ pub struct LossAt {
     pub sums: [f64; 6],
 }
 
-impl From<&PointResult> for LossAt {
-    fn from(point: &PointResult) -> Self {
+impl LossAt {
+    /// Of what a map shows.
+    pub fn new(of: MapOf, point: &PointResult) -> Self {
+        let [efficiency, _, loss_torque] = of.read(point);
         Self {
-            efficiency: point.efficiency,
-            loss_torque: point.loss_torque,
+            efficiency,
+            loss_torque,
             oil: point.oil,
-            sums: point.sums,
+            sums: of.sums(point),
         }
     }
 }
@@ -177,7 +183,7 @@ impl LossGrid {
 
 impl Selection {
     /// For a grid with its axes, or for a list. `whole` stores the values of all positions.
-    pub fn new(grid: Option<&Axes>, whole: bool) -> Self {
+    pub fn new(of: MapOf, grid: Option<&Axes>, whole: bool) -> Self {
         let numbers = |lines: &[f64], shown: &[usize]| {
             let mut numbers = vec![None; lines.len()];
             for (k, i) in shown.iter().enumerate() {
@@ -186,6 +192,7 @@ impl Selection {
             numbers
         };
         Self {
+            of,
             whole,
             gear: None,
             lines: grid.map(|axes| {
@@ -213,12 +220,12 @@ impl Selection {
         for (number, point) in points {
             let place = field.place(*number);
             if self.whole {
-                picked.values.push((place, (&**point).into()));
+                picked.values.push((place, LossAt::new(self.of, point)));
             }
             if let Some(shown) = self.place(place) {
                 let point = ShownPoint {
                     gear: self.gear,
-                    ..(&**point).into()
+                    ..ShownPoint::new(self.of, point)
                 };
                 picked.shown.push((shown, point));
             }

@@ -126,7 +126,9 @@ impl Variable {
                 return Err(cx.wrong(at, message, help));
             };
             let range = RangeEntry {
-                path: own,
+                path: Some(own),
+                paths: Vec::new(),
+                values: Vec::new(),
                 tie: entry.tie,
                 plus_minus: plus_minus.clone(),
                 percent: *percent,

@@ -22,6 +22,10 @@ pub enum OutputKind {
     Term,
     /// Output power over input power.
     Efficiency,
+    /// Losses of gearbox, machines and inverters.
+    UnitLoss,
+    /// Power at the other ports over the power of the DC link, while generating the reciprocal.
+    SystemEfficiency,
     /// Root mean square over the points of the relative change of the loss at each point from the values of the gearbox: it shows
     /// parameters that shift losses between regions without changing the mean.
     RelativeLoss,
@@ -35,6 +39,8 @@ impl OutputKind {
             Self::Mechanism => "mechanism",
             Self::Term => "term",
             Self::Efficiency => "efficiency",
+            Self::UnitLoss => "unit_loss",
+            Self::SystemEfficiency => "system_efficiency",
             Self::RelativeLoss => "relative_loss",
         }
     }
@@ -53,8 +59,8 @@ impl Output {
     /// Unit in results.
     pub fn unit(&self) -> &'static str {
         match self.kind {
-            OutputKind::Efficiency | OutputKind::RelativeLoss => "-",
-            OutputKind::Loss | OutputKind::Mechanism | OutputKind::Term => "w",
+            OutputKind::Efficiency | OutputKind::SystemEfficiency | OutputKind::RelativeLoss => "-",
+            OutputKind::Loss | OutputKind::UnitLoss | OutputKind::Mechanism | OutputKind::Term => "w",
         }
     }
 }
@@ -67,6 +73,10 @@ pub struct Outputs {
     shares: [Shares; 2],
     /// Points with an efficiency at the values of the gearbox: all means are taken over these points.
     efficient: Vec<usize>,
+    /// True if all points have a drive unit.
+    has_unit: bool,
+    /// Points with an efficiency of the drive unit at the values of the gearbox.
+    system: Vec<usize>,
     /// Losses at the values of the gearbox, of points with a loss; empty if the relative change is not requested.
     nominal: Vec<(usize, f64)>,
 }
@@ -90,6 +100,15 @@ impl Outputs {
         if !efficient.is_empty() {
             list.push(output(OutputKind::Efficiency, "efficiency"));
         }
+        let has_unit = !nominal.is_empty() && nominal.iter().all(|p| p.unit().is_some());
+        let passes = |(i, p): (usize, &PointResult)| p.unit()?.system_efficiency.map(|_| i);
+        let system: Vec<usize> = nominal.iter().enumerate().filter_map(passes).collect();
+        if has_unit {
+            list.push(output(OutputKind::UnitLoss, "unit_loss"));
+        }
+        if !system.is_empty() {
+            list.push(output(OutputKind::SystemEfficiency, "system_efficiency"));
+        }
         let loses = |(i, p): (usize, &PointResult)| p.loss.filter(|loss| *loss > 0.0).map(|loss| (i, loss));
         let nominal: Vec<(usize, f64)> = if relative {
             nominal.iter().enumerate().filter_map(loses).collect()
@@ -103,6 +122,8 @@ impl Outputs {
             list,
             shares: shares.map(|(by, names)| Shares::new(t, by).under(names)),
             efficient,
+            has_unit,
+            system,
             nominal,
         }
     }
@@ -110,7 +131,7 @@ impl Outputs {
     /// Maximum number of outputs of a transmission.
     pub fn most(t: &Transmission) -> usize {
         let names = [By::Mechanism, By::Term].map(|by| together(std::iter::once(t), by).len());
-        3 + names.iter().sum::<usize>()
+        5 + names.iter().sum::<usize>()
     }
 
     /// Values of the outputs at solved points.
@@ -141,6 +162,22 @@ impl Outputs {
             };
             let list: Vec<f64> = self.efficient.iter().map(of).collect::<Result<_, _>>()?;
             values.push(list.iter().sum::<f64>() / list.len() as f64);
+        }
+        if self.has_unit {
+            let none = |p: &PointResult| format!("no loss of the drive unit at {}", place(p));
+            let all = points
+                .iter()
+                .map(|p| p.unit().map(|unit| unit.unit_loss_w).ok_or_else(|| none(p)));
+            values.push(all.sum::<Result<f64, String>>()? / count);
+        }
+        if !self.system.is_empty() {
+            let of = |i: &usize| {
+                let point = &points[*i];
+                let none = || format!("no efficiency of the drive unit at {}", place(point));
+                point.unit().and_then(|unit| unit.system_efficiency).ok_or_else(none)
+            };
+            let sum = self.system.iter().map(of).sum::<Result<f64, String>>()?;
+            values.push(sum / self.system.len() as f64);
         }
         if !self.nominal.is_empty() {
             let square = |(i, loss): &(usize, f64)| (all[*i] / loss - 1.0).powi(2);

@@ -14,7 +14,7 @@ use crate::analyses::ranges::PublishedCoefficient;
 use crate::analyses::{Head, Outcome};
 use crate::distinct::distinct;
 use crate::duty::Consumption;
-use crate::points::Note;
+use crate::points::{Note, UnitPoint};
 use crate::table::Table;
 
 /// Losses and efficiency at every value with each model set.
@@ -166,6 +166,9 @@ pub struct PointOfSweep {
     pub loss_w: Option<f64>,
     /// Losses in the order of the shares. [W]
     pub losses_w: Option<Vec<f64>>,
+    /// The drive unit; absent without machines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<UnitPoint>,
     /// Limited quantities, by the names of the limits; absent if the study has none at points.
     #[serde(skip_serializing_if = "Ordered::is_empty")]
     pub limit_values: Ordered<Option<f64>>,
@@ -283,6 +286,8 @@ impl Outcome for SweepOutcome {
         let second = first.and_then(|value| value.second.as_ref());
         let shares = first.map_or(&[][..], |value| &value.shares);
         let with_path = "Value of the path as in the study";
+        let mut points = self.sweep.iter().flat_map(|value| &value.points);
+        let has_unit = points.any(|point| point.unit.is_some());
         let table = Table::of_each(&self.head.analysis, &self.sweep, |value| &value.points)
             .text("model_set", "Model set", |(value, _)| &value.model_set)
             .text("gear", "Gear", |(value, _)| &value.gear)
@@ -305,6 +310,11 @@ impl Outcome for SweepOutcome {
             .each(shares.iter().enumerate(), |table, (i, share)| {
                 table.number(format!("{share}_w"), "W", format!("Loss of {share}"), |(_, point)| {
                     point.losses_w.as_ref().map(|losses| losses[i])
+                })
+            })
+            .each(UnitPoint::columns(has_unit), |table, column| {
+                table.number(column.name, column.unit, column.meaning, |(_, point)| {
+                    point.unit.as_ref().and_then(column.read)
                 })
             })
             .each(&self.limits, |table, limit| {

@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::super::model_error::ModelErrorEntry;
 use super::super::{Planner, Stopped};
+use crate::analyses::measurable::measured;
 use crate::study::{Data, Difference, Quantity, Write};
 
 /// Maximum number of combinations.
@@ -127,6 +128,7 @@ impl TournamentEntry {
             let message = "combinations are ranked by losses, not by temperature";
             return Err(cx.wrong(&format!("{path}.quantity"), message, "write `quantity: loss`"));
         }
+        measured(cx, &path, self.quantity)?;
         if let Some(errors) = self.errors {
             let both = [errors.percent, errors.absolute];
             if both.iter().all(Option::is_none) || both.iter().flatten().any(|x| *x <= 0.0) {

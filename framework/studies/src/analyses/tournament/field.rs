@@ -86,7 +86,8 @@ impl<'a> Field<'a> {
         let scale = |p: &PointResult| match entry.quantity {
             Quantity::Efficiency => 100.0 / (p.torque * p.torque_speed).abs(),
             Quantity::LossTorque => 1.0 / p.reference_speed.abs(),
-            Quantity::Loss | Quantity::Temperature => 1.0,
+            // Others are refused.
+            _ => 1.0,
         };
         let scale = |p: &PointResult| Some(scale(p)).filter(|s| s.is_finite());
         let field = Self {

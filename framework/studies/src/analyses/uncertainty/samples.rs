@@ -30,16 +30,23 @@ pub struct PointOfSample {
     loss_torque: f64,
     /// Temperature of the oil. \[°C\]
     oil: f64,
+    /// Loss of the drive unit. \[W\]
+    unit_loss: f64,
+    /// Efficiency of the drive unit. \[-\]
+    system_efficiency: f64,
 }
 
 impl From<&PointResult> for PointOfSample {
     fn from(point: &PointResult) -> Self {
         let number = |x: Option<f64>| x.unwrap_or(f64::NAN);
+        let unit = point.unit();
         Self {
             efficiency: number(point.efficiency),
             loss: number(point.loss),
             loss_torque: number(point.loss_torque),
             oil: number(point.oil),
+            unit_loss: number(unit.map(|unit| unit.unit_loss_w)),
+            system_efficiency: number(unit.and_then(|unit| unit.system_efficiency)),
         }
     }
 }
@@ -115,6 +122,7 @@ impl Samples {
                 band: self.band(i, read),
             };
             let efficiency_percent = quantity(|p| 100.0 * p.efficiency);
+            let system_percent = quantity(|p| 100.0 * p.system_efficiency);
             PointOfBand {
                 torque_nm: p.torque,
                 speed_rpm: tidy(p.speed * RPM),
@@ -123,6 +131,9 @@ impl Samples {
                 loss_w: quantity(|p| p.loss),
                 loss_torque_nm: quantity(|p| p.loss_torque),
                 oil_temperature_degc: quantity(|p| p.oil),
+                unit_loss_w: quantity(|p| p.unit_loss).known(),
+                system_efficiency: system_percent.scaled(0.01).known(),
+                system_percent,
                 efficiency_percent,
             }
         };

@@ -17,10 +17,10 @@ impl Tabulated<'_> {
         let reference = self.t.ports()[self.t.reference_port()].member;
         for motor in 0..self.network.motors().len() {
             let (member, nodes) = self.network.motor_nodes(motor);
-            let table = if member == reference {
-                self.own_motor(motor, nodes[1])
-            } else {
-                self.other_motor(motor, nodes[1])?
+            let own = self.network.motor_axes(motor).filter(|_| member == reference);
+            let table = match own {
+                Some(axes) => self.own_motor(motor, nodes[1], axes),
+                None => self.other_motor(motor, nodes[1])?,
             };
             sources.push(fmu::Source {
                 table,
@@ -31,8 +31,7 @@ impl Tabulated<'_> {
         Ok(sources)
     }
 
-    fn own_motor(&self, motor: usize, stator: usize) -> Table {
-        let [mut speeds, torques] = self.network.motor_axes(motor);
+    fn own_motor(&self, motor: usize, stator: usize, [mut speeds, torques]: [Vec<f64>; 2]) -> Table {
         speeds.retain(|speed| *speed > SLOWEST);
         speeds.splice(0..0, [0.0, SLOWEST]);
         let mut both: Vec<f64> = torques.iter().rev().map(|torque| -torque).collect();
