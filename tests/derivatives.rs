@@ -87,6 +87,7 @@ impl Rig {
                 power: 1e-13,
                 ..Tolerance::default()
             },
+            inclination: 0.0,
         };
         let (t, case) = (&self.transmission, &self.prepared.case);
         let mut scratch = t.scratch(case);

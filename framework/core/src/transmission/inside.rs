@@ -81,10 +81,10 @@ impl Inside {
             .housing
             .travel
             .and_then(|travel| Travel::new(up, travel.direction()));
-        let inclinations = travel.filter(|_| space.is_ok()).and_then(|travel| {
+        let inclinations = travel.filter(|_| space.is_ok()).map(|travel| {
             let at: Vec<(Vec<Disc>, f64)> = travel
                 .ups()
-                .map(|(_, up)| {
+                .map(|up| {
                     let height = height_of(up);
                     let solids = discs((entry, document), members, gears, axes, &sections, (up, height));
                     (solids, height)
@@ -96,24 +96,9 @@ impl Inside {
                 mean(widest(sections.iter().map(Outline::extent)), datum[1]),
             ];
             let input = (sections.clone(), travel, at, middle);
-            let spaces = memory.repeat("inclined oil space", input, |(sections, travel, at, middle)| {
-                Inclinations::new(*travel, sections, at, *middle).map(Arc::new)
-            });
-            spaces
-                .map_err(|(degrees, Crowded(level))| {
-                    found.push(
-                        Diagnostic::error(
-                            "housing.travel",
-                            format!(
-                                "inclined by {degrees:.0} deg, gears and shafts reach out of the oil space {:.1} mm above the datum",
-                                level * 1e3
-                            ),
-                        )
-                        .code(codes::TRAVEL)
-                        .help("check `housing.inside` against the gears, or delete `travel`: cycles then do not incline the oil"),
-                    );
-                })
-                .ok()
+            memory.repeat("inclined oil space", input, |(sections, travel, at, middle)| {
+                Arc::new(Inclinations::new(*travel, sections, at, *middle))
+            })
         });
         match space {
             Ok(space) => Some(Self {
@@ -354,6 +339,12 @@ fn discs(
                 // A ring is the difference of two discs.
                 let ring = [(outside, solid), (bore, -solid)];
                 let extent = range[1] - range[0];
+                // The part that is inside.
+                let at = if axis.is_along_x() {
+                    f64::midpoint(range[0], range[1])
+                } else {
+                    at
+                };
                 discs.extend(ring.map(|(diameter, width)| disc_of(&axis, at, 0.5 * diameter, [width, extent])));
             }
         }
