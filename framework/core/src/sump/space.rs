@@ -41,7 +41,7 @@ impl Space {
 
     /// The same, of solids that were checked in another position: a bearing beside a small gear may reach out of a hull a little, which
     /// matters where the surface is narrow. A level then is one of those that have the volume.
-    pub(super) fn unchecked(sections: &[Outline], discs: Vec<Disc>, up: [f64; 3], datum: f64) -> Self {
+    pub(crate) fn unchecked(sections: &[Outline], discs: Vec<Disc>, up: [f64; 3], datum: f64) -> Self {
         let at = |[y, z]: [f64; 2]| up[1] * y + up[2] * z - datum;
         let profiles: Vec<Profile> = sections.iter().map(|section| Profile::new(section, at)).collect();
         let ends = sections.iter().zip(&profiles).flat_map(|(section, profile)| {

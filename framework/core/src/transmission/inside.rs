@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// Radial and axial gap between gears and wall if none is stated: an assumption. \[m\]
 const GAP: f64 = 0.01;
 
+/// The upward direction of a housing that is not inclined.
+const LEVEL: [f64; 3] = [0.0, 0.0, 1.0];
+
 /// The inside of a housing.
 #[derive(Debug, Clone)]
 pub(crate) struct Inside {
@@ -68,14 +71,28 @@ impl Inside {
             }
         };
         let height = height_of(up);
-        let input = Input {
-            discs: discs((entry, document), members, gears, axes, &sections, (up, height)),
+        let input = |up: [f64; 3]| Input {
+            discs: discs((entry, document), members, gears, axes, &sections, (up, height_of(up))),
             sections: sections.clone(),
             up,
-            datum: height,
+            datum: height_of(up),
         };
-        let space = memory.repeat("oil space", input, |input| {
+        // Solids are inside or not, however the housing is inclined; a surface that it makes narrow says less about that.
+        let checked = memory.repeat("oil space", input(LEVEL), |input| {
             Space::new(&input.sections, input.discs.clone(), input.up, input.datum).map(Arc::new)
+        });
+        let space = checked.map(|level| {
+            if up == LEVEL {
+                return level;
+            }
+            memory.repeat("oil space as it is inclined", input(up), |input| {
+                Arc::new(Space::unchecked(
+                    &input.sections,
+                    input.discs.clone(),
+                    input.up,
+                    input.datum,
+                ))
+            })
         });
         let travel = entry
             .housing
