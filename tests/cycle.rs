@@ -316,7 +316,7 @@ fn a_cycle_inclines_the_oil_of_a_housing_that_travels() {
     assert_eq!(without.total.parts, with.total.parts);
     let hills = read("time [s],vehicle_speed [km/h],grade [-]\n0,50,0\n1,60,0\n2,60,0.1\n3,60,0.1\n4,50,0.1\n");
     let intervals = hills.intervals(Some(&vehicle())).unwrap();
-    let acceleration: f64 = 10.0 / 3.6;
+    let acceleration = 10.0_f64 / 3.6;
     let expected = [
         (acceleration / 9.80665).atan(),
         0.05_f64.atan(),

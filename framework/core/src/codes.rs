@@ -99,8 +99,8 @@ gearloss_document::codes! {
         cause: "A file of `load_sharing: { type: file }` cannot be read, is incomplete, or its shares do not carry the whole force.",
         help: "Correct the file at the place that the message names.";
     TRAVEL = "E0360", "a cycle cannot incline the oil",
-        cause: "`housing.travel` lets grade and acceleration of a cycle incline the oil, but no volume of oil or no oil space is known, or an inclination is impossible.",
-        help: "State `volume` with `housing.inside`, or delete `travel`.";
+        cause: "`housing.travel` lets grade and acceleration of a cycle incline the oil, but no level or no oil space is known, or it inclines the oil by more than 60 degrees.",
+        help: "State `volume` with `housing.inside`, correct the cycle, or delete `travel`.";
     WINDOW = "E0361", "a window that no gear can throw oil through",
         cause: "The window of a pocket has no size, its wall is not beside its gear, or how much oil the gear lifts is not known.",
         help: "Correct the places of the window, or name a gear with a churning law and a stationary axis along x.";
@@ -156,9 +156,6 @@ gearloss_document::codes! {
     STATED_OVER_DRAWING = "W0316", "a stated value replaces that of the drawing",
         cause: "A value is stated that follows from the drawing of the housing and the level of its oil, and the two differ by more than a tenth.",
         help: "Remove the stated value, or correct the outline or the level.";
-    MISSED_WINDOW = "W0360", "no oil comes through a window",
-        cause: "The oil that the gear of a window throws at the rated speed passes the window of a pocket, or the gear throws none.",
-        help: "Move the window, name another gear, or check the sense of rotation and the oil level.";
     UNUSUAL_HAND = "W0320", "unusual combination of hand and offset",
         cause: "With this hand and offset of a hypoid pair the spiral angle of the pinion is smaller than that of the wheel, which is legal but rare: the \
                 pinion becomes smaller.",
@@ -175,4 +172,7 @@ gearloss_document::codes! {
     SHARES_CORRECTED = "W0351", "shares of a file are corrected",
         cause: "The shares of all pairs of teeth in a file of `load_sharing: { type: file }` do not add up to one exactly.",
         help: "Write the file with more places along the path, two of them close to each other where a share jumps.";
+    MISSED_WINDOW = "W0360", "no oil comes through a window",
+        cause: "The oil that the gear of a window throws at the rated speed passes the window of a pocket, or the gear throws none.",
+        help: "Move the window, name another gear, or check the sense of rotation and the oil level.";
 }

@@ -137,7 +137,8 @@ impl Rise {
             let swell = match bound(at, loss.sum(), law) {
                 Ok(bound) => {
                     at.show("swell_max", "-", bound);
-                    at.check(&SWELL, self.swell - bound);
+                    // A gear that hardly dips has a bound beyond all limits.
+                    at.check(&SWELL, (self.swell - bound).max(-10.0));
                     self.swell + self.share * bound
                 }
                 // Without a bound there is no share of it.

@@ -4,7 +4,7 @@
 //! interpolated, so that level and volume remain inverse of each other and no oil is lost.
 
 use super::outline::Outline;
-use super::{Crowded, Disc, Space};
+use super::{Disc, Space};
 
 /// Step of the inclinations at which the space is exact. \[deg\]
 const STEP: f64 = 0.5;
@@ -52,10 +52,10 @@ impl Travel {
         std::array::from_fn(|i| cosine * self.up[i] + sine * self.ahead[i])
     }
 
-    /// The inclinations whose spaces are exact, in degrees, with their upward directions.
-    pub fn ups(&self) -> impl Iterator<Item = (f64, [f64; 3])> {
+    /// The upward directions at the inclinations whose spaces are exact.
+    pub fn ups(&self) -> impl Iterator<Item = [f64; 3]> {
         let degrees = (0..=2 * STEPS).map(|step| (step as f64 - STEPS as f64) * STEP);
-        degrees.map(|degrees| (degrees, self.up(degrees.to_radians())))
+        degrees.map(|degrees| self.up(degrees.to_radians()))
     }
 }
 
@@ -72,24 +72,15 @@ pub struct Inclinations {
 impl Inclinations {
     /// The spaces of some sections, with the solids in them and the height of the datum at each of [`Travel::ups`]; `middle` is the middle of
     /// the sections along x and y, from the datum (m).
-    ///
-    /// # Errors
-    /// If solids reach out of the sections at an inclination (deg).
-    pub fn new(
-        travel: Travel,
-        sections: &[Outline],
-        at: &[(Vec<Disc>, f64)],
-        middle: [f64; 2],
-    ) -> Result<Self, (f64, Crowded)> {
-        let space = |((degrees, up), (solids, datum)): ((f64, [f64; 3]), &(Vec<Disc>, f64))| {
-            let space = Space::new(sections, solids.clone(), up, *datum);
-            space.map(|space| (up, space)).map_err(|crowded| (degrees, crowded))
+    pub fn new(travel: Travel, sections: &[Outline], at: &[(Vec<Disc>, f64)], middle: [f64; 2]) -> Self {
+        let space = |(up, (solids, datum)): ([f64; 3], &(Vec<Disc>, f64))| {
+            (up, Space::unchecked(sections, solids.clone(), up, *datum))
         };
-        Ok(Self {
+        Self {
             travel,
-            spaces: travel.ups().zip(at).map(space).collect::<Result<_, _>>()?,
+            spaces: travel.ups().zip(at).map(space).collect(),
             middle,
-        })
+        }
     }
 
     /// How the housing travels.

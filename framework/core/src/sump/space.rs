@@ -32,6 +32,16 @@ impl Space {
     /// # Errors
     /// If the volume falls while the level rises.
     pub fn new(sections: &[Outline], discs: Vec<Disc>, up: [f64; 3], datum: f64) -> Result<Self, Crowded> {
+        let space = Self::unchecked(sections, discs, up, datum);
+        match space.falls() {
+            Some(level) => Err(Crowded(level)),
+            None => Ok(space),
+        }
+    }
+
+    /// The same, of solids that were checked in another position: a bearing beside a small gear may reach out of a hull a little, which
+    /// matters where the surface is narrow. A level then is one of those that have the volume.
+    pub(crate) fn unchecked(sections: &[Outline], discs: Vec<Disc>, up: [f64; 3], datum: f64) -> Self {
         let at = |[y, z]: [f64; 2]| up[1] * y + up[2] * z - datum;
         let profiles: Vec<Profile> = sections.iter().map(|section| Profile::new(section, at)).collect();
         let ends = sections.iter().zip(&profiles).flat_map(|(section, profile)| {
@@ -59,14 +69,10 @@ impl Space {
                 4.5 * (3.0 * (b - c) + d - a),
             ]
         });
-        let space = Self {
+        Self {
             cubics: cubics.collect(),
             heights,
             discs,
-        };
-        match space.falls() {
-            Some(level) => Err(Crowded(level)),
-            None => Ok(space),
         }
     }
 

@@ -105,7 +105,7 @@ fn travelling(direction: [f64; 3], discs: &[Disc]) -> Inclinations {
     let travel = Travel::new(UP, direction).unwrap();
     let at: Vec<(Vec<Disc>, f64)> = travel
         .ups()
-        .map(|(_, up)| {
+        .map(|up| {
             let slope = 1.0 / up[1].hypot(up[2]);
             // The gear is 120 mm towards y and in the middle along x.
             let place = |disc: &Disc| up[1] * 0.12 + up[2] * disc.height;
@@ -118,7 +118,7 @@ fn travelling(direction: [f64; 3], discs: &[Disc]) -> Inclinations {
             (discs.iter().map(turned).collect(), 0.0)
         })
         .collect();
-    Inclinations::new(travel, &[case_a()], &at, [0.0, 0.1]).unwrap()
+    Inclinations::new(travel, &[case_a()], &at, [0.0, 0.1])
 }
 
 /// A disc on an inclined axis displaces the sum of thin ones.

@@ -14,6 +14,9 @@ use std::sync::Arc;
 /// Radial and axial gap between gears and wall if none is stated: an assumption. \[m\]
 const GAP: f64 = 0.01;
 
+/// The upward direction of a housing that is not inclined.
+const LEVEL: [f64; 3] = [0.0, 0.0, 1.0];
+
 /// The inside of a housing.
 #[derive(Debug, Clone)]
 pub(crate) struct Inside {
@@ -68,23 +71,37 @@ impl Inside {
             }
         };
         let height = height_of(up);
-        let input = Input {
-            discs: discs((entry, document), members, gears, axes, &sections, (up, height)),
+        let input = |up: [f64; 3]| Input {
+            discs: discs((entry, document), members, gears, axes, &sections, (up, height_of(up))),
             sections: sections.clone(),
             up,
-            datum: height,
+            datum: height_of(up),
         };
-        let space = memory.repeat("oil space", input, |input| {
+        // Solids are inside or not, however the housing is inclined; a surface that it makes narrow says less about that.
+        let checked = memory.repeat("oil space", input(LEVEL), |input| {
             Space::new(&input.sections, input.discs.clone(), input.up, input.datum).map(Arc::new)
+        });
+        let space = checked.map(|level| {
+            if up == LEVEL {
+                return level;
+            }
+            memory.repeat("oil space as it is inclined", input(up), |input| {
+                Arc::new(Space::unchecked(
+                    &input.sections,
+                    input.discs.clone(),
+                    input.up,
+                    input.datum,
+                ))
+            })
         });
         let travel = entry
             .housing
             .travel
             .and_then(|travel| Travel::new(up, travel.direction()));
-        let inclinations = travel.filter(|_| space.is_ok()).and_then(|travel| {
+        let inclinations = travel.filter(|_| space.is_ok()).map(|travel| {
             let at: Vec<(Vec<Disc>, f64)> = travel
                 .ups()
-                .map(|(_, up)| {
+                .map(|up| {
                     let height = height_of(up);
                     let solids = discs((entry, document), members, gears, axes, &sections, (up, height));
                     (solids, height)
@@ -96,24 +113,9 @@ impl Inside {
                 mean(widest(sections.iter().map(Outline::extent)), datum[1]),
             ];
             let input = (sections.clone(), travel, at, middle);
-            let spaces = memory.repeat("inclined oil space", input, |(sections, travel, at, middle)| {
-                Inclinations::new(*travel, sections, at, *middle).map(Arc::new)
-            });
-            spaces
-                .map_err(|(degrees, Crowded(level))| {
-                    found.push(
-                        Diagnostic::error(
-                            "housing.travel",
-                            format!(
-                                "inclined by {degrees:.0} deg, gears and shafts reach out of the oil space {:.1} mm above the datum",
-                                level * 1e3
-                            ),
-                        )
-                        .code(codes::TRAVEL)
-                        .help("check `housing.inside` against the gears, or delete `travel`: cycles then do not incline the oil"),
-                    );
-                })
-                .ok()
+            memory.repeat("inclined oil space", input, |(sections, travel, at, middle)| {
+                Arc::new(Inclinations::new(*travel, sections, at, *middle))
+            })
         });
         match space {
             Ok(space) => Some(Self {
@@ -354,6 +356,12 @@ fn discs(
                 // A ring is the difference of two discs.
                 let ring = [(outside, solid), (bore, -solid)];
                 let extent = range[1] - range[0];
+                // The part that is inside.
+                let at = if axis.is_along_x() {
+                    f64::midpoint(range[0], range[1])
+                } else {
+                    at
+                };
                 discs.extend(ring.map(|(diameter, width)| disc_of(&axis, at, 0.5 * diameter, [width, extent])));
             }
         }
