@@ -17,6 +17,7 @@ mod consumption;
 mod corpus;
 mod counts;
 mod coverage;
+mod crossed_examples;
 mod cycle;
 mod dependencies;
 mod derivatives;
