@@ -351,6 +351,42 @@ fn points_may_prescribe_both_sides() {
     close(s.loss, 32.2214631, 1e-8);
 }
 
+/// With a stated loss of each mesh the bias is the closed form; with a law of friction it depends on the torque.
+#[test]
+fn the_gears_of_a_differential_are_bevel_meshes() {
+    let in_corner = |model: &str| {
+        axle(
+            &format!(
+                "    speed_difference: 0.1
+    model: {model}"
+            ),
+            "",
+        )
+    };
+    let loss = |text: &str, torque: f64| solve(&built(text), "only", &[("input", HUNDRED)], &[("input", torque)]).loss;
+    let with_teeth = |mesh: &str| {
+        in_corner(&format!("{{ type: bevel_meshes, friction: 0.08, mesh: {mesh} }}")).replace(
+            "pin_radius: 8 mm }",
+            "pin_radius: 8 mm }, teeth: { pinions: 2, facewidth: 14 mm, ra: 0.8 um }",
+        )
+    };
+    let closed = in_corner("{ type: bevel_gears, friction: 0.08, mesh_efficiency: 0.9604 }");
+    close(
+        loss(&with_teeth("{ type: efficiency, value: 0.98 }"), 1000.0),
+        loss(&closed, 1000.0),
+        1e-12,
+    );
+    let law = with_teeth("{ type: path_integral, tooth_friction: { type: xu } }");
+    let [light, heavy] = [100.0, 1000.0].map(|torque| loss(&law, torque) / torque);
+    let without = loss(&with_teeth("{ type: efficiency, value: 1 }"), 1000.0) / 1000.0;
+    assert!(
+        light > without && heavy > without && (light / heavy - 1.0).abs() > 1e-3,
+        "{light} {heavy} {without}"
+    );
+    let without_teeth = in_corner("{ type: bevel_meshes, friction: 0.08, mesh: { type: efficiency, value: 1 } }");
+    assert_eq!(refused(&without_teeth).len(), 1);
+}
+
 #[test]
 fn the_wheels_of_an_axle_in_a_corner_are_one_port_with_their_power() {
     let top = "wheels: [left, right]\nwheel_speeds: [1.05, 0.95]";

@@ -18,6 +18,7 @@ mod corpus;
 mod correction;
 mod counts;
 mod coverage;
+mod crossed_examples;
 mod cycle;
 mod dependencies;
 mod derivatives;

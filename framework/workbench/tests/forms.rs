@@ -352,7 +352,9 @@ fn a_new_gearbox_is_solved() {
         let texts = json!({ "new.yaml": text["text"] });
         let answer = value(&session, first_point(&session, &texts, "new.yaml"));
         let efficiency = answer["efficiency"].as_f64().unwrap();
-        assert!((0.9..1.0).contains(&efficiency), "{}: {efficiency}", layout.name);
+        // Threads slide.
+        let least = if layout.name == "worm" { 0.8 } else { 0.9 };
+        assert!((least..1.0).contains(&efficiency), "{}: {efficiency}", layout.name);
         let gearbox = Gearbox::of_text(language(), layout.text, "gearbox.yaml", "").unwrap();
         gearbox.resolve(language(), &Choice::default()).unwrap();
     }

@@ -45,6 +45,36 @@ pub struct Params {
     pub mesh_efficiency: f64,
 }
 
+/// Coefficients of friction of the contacts that are no teeth.
+pub(super) struct ContactFriction {
+    pub washers: f64,
+    pub seats: f64,
+    pub pins: f64,
+}
+
+/// Shares of the torque through a side gear that its washer takes, and of that through a pinion that its seat and its pin take.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Contacts {
+    pub washer: f64,
+    pub pinion: f64,
+}
+
+impl Contacts {
+    /// `None` if a contact takes the whole torque.
+    pub fn new(friction: &ContactFriction, gears: &DifferentialGears) -> Option<Self> {
+        let [z_s, z_p] = [gears.side.z, gears.pinion.z].map(f64::from);
+        let thrust = gears.pressure_angle.tan();
+        // Sines of the pitch angles.
+        let [s_s, s_p] = [z_s, z_p].map(|z| z / z_s.hypot(z_p));
+        let r_p = gears.side.radius * z_p / z_s;
+        let washer = friction.washers * thrust * s_s * gears.side.washer_radius / gears.side.radius;
+        let seat = friction.seats * thrust * s_p * gears.pinion.seat_radius;
+        let pin = friction.pins * gears.pinion.pin_radius;
+        let pinion = (seat + pin) / r_p;
+        (washer < 1.0 && pinion < 1.0).then_some(Self { washer, pinion })
+    }
+}
+
 struct BevelGears {
     /// Shares of the torque of the driving side gear that washers, pinions and teeth take.
     shares: [f64; 3],
@@ -69,18 +99,12 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<BevelGears, Diagnostic>
 impl BevelGears {
     /// `None` if a washer or a pinion takes the whole torque.
     fn new(params: &Params, gears: &DifferentialGears) -> Option<Self> {
-        let [z_s, z_p] = [gears.side.z, gears.pinion.z].map(f64::from);
-        let thrust = gears.pressure_angle.tan();
-        // Sines of the pitch angles.
-        let [s_s, s_p] = [z_s, z_p].map(|z| z / z_s.hypot(z_p));
-        let r_p = gears.side.radius * z_p / z_s;
-        let washer = params.friction * thrust * s_s * gears.side.washer_radius / gears.side.radius;
-        let seat = params.seat_friction.unwrap_or(params.friction) * thrust * s_p * gears.pinion.seat_radius;
-        let pin = params.pin_friction.unwrap_or(params.friction) * gears.pinion.pin_radius;
-        let pinion = (seat + pin) / r_p;
-        if washer >= 1.0 || pinion >= 1.0 {
-            return None;
-        }
+        let friction = ContactFriction {
+            washers: params.friction,
+            seats: params.seat_friction.unwrap_or(params.friction),
+            pins: params.pin_friction.unwrap_or(params.friction),
+        };
+        let Contacts { washer, pinion } = Contacts::new(&friction, gears)?;
         let mesh = (1.0 - params.mesh_efficiency) / (1.0 + params.mesh_efficiency);
         // From the driving side gear through its washer, a mesh, the pinion and the other mesh to the other washer.
         let one_mesh = params.mesh_efficiency.sqrt();
@@ -157,6 +181,7 @@ mod tests {
             pin_radius: 8e-3,
         },
         pressure_angle: 0.349_065_850_398_865_9,
+        teeth: None,
     };
 
     #[test]

@@ -90,7 +90,7 @@ mod tests {
         assert!(found.gives(1000.0) && found.at(1000.0) == law(1000.0));
         assert!(!found.gives(1000.2) && found.gives(1000.00009));
         found.add(true, 990.0, law(990.0));
-        for force in [989.99, 990.0, 990.009] {
+        for force in [989.995, 990.0, 990.005] {
             assert!(found.gives(force));
             let error = (found.at(force) / law(force) - 1.0).abs();
             assert!(error < 1e-8, "{force} {error}");

@@ -195,6 +195,10 @@ fn differential_at<'a, R: Points>(
         nu: oil.nu,
         eta: oil.eta,
         rho: oil.rho,
+        alpha: oil.alpha,
+        beta: oil.beta,
+        conductivity: oil.conductivity,
+        x_l: oil.x_l,
         notes,
     }
 }

@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::loss::{Loss, Term, Undefined};
+use crate::description::crossed::{DepthEntry, FlankAngles, SpiralAngleOf};
+use crate::description::{BevelAxes, BevelTeeth};
+use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::mechanism::bevel_mesh::{BevelMeshAt, BevelPart, FlankSurfaces};
+use crate::mechanism::gear_mesh::{steel, steel_poisson};
 use crate::mechanism::{Answers, Mechanism, Scalar};
 use crate::real::{Dual, Lane, Points as _, Real};
 use crate::{answered_by, context};
@@ -86,6 +90,20 @@ pub struct PinionGear {
     pub pin_radius: f64,
 }
 
+/// Teeth of the gears of a differential, for models that evaluate their meshes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DifferentialTeeth {
+    /// Number of pinions, which share the torque equally. [-]
+    #[schemars(range(min = 1, max = 8))]
+    pub pinions: u32,
+    /// Face width of the gears. [mm]
+    #[schemars(range(min = 1.0, max = 1000.0))]
+    pub facewidth: f64,
+    /// Arithmetic mean roughness of the flanks. [um]
+    #[schemars(range(min = 0.01, max = 20.0))]
+    pub ra: f64,
+}
+
 /// The straight bevel gears of a differential.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DifferentialGears {
@@ -97,6 +115,49 @@ pub struct DifferentialGears {
     #[serde(default = "usual_pressure_angle")]
     #[schemars(range(min = 10.0, max = 35.0))]
     pub pressure_angle: f64,
+    /// Their teeth, for models that evaluate their meshes.
+    pub teeth: Option<DifferentialTeeth>,
+}
+
+impl DifferentialGears {
+    /// A pinion with a side gear, of steel: straight teeth of the usual depth.
+    ///
+    /// # Errors
+    /// Why there is no such pair.
+    pub fn mesh(&self, teeth: &DifferentialTeeth) -> Result<BevelPart, String> {
+        let written = BevelTeeth {
+            outer_diameter: None,
+            outer_module: None,
+            mean_diameter: Some(2.0 * self.side.radius),
+            spiral_angle: 0.0,
+            spiral_angle_of: SpiralAngleOf::Pinion,
+            pressure_angle: FlankAngles {
+                drive: self.pressure_angle,
+                coast: self.pressure_angle,
+                limit_factor: 0.0,
+            },
+            method: None,
+            cutter: None,
+            calculation_point: None,
+            wheel_pitch_angle: None,
+            depth: DepthEntry::default(),
+        };
+        let axes = BevelAxes {
+            z: [self.pinion.z, self.side.z],
+            shaft_angle: std::f64::consts::FRAC_PI_2,
+            offset: 0.0,
+            facewidth: teeth.facewidth,
+        };
+        let pair = written.pair(&axes).map_err(|fault| fault.to_string())?;
+        let surfaces = FlankSurfaces {
+            ra: [teeth.ra; 2],
+            // As of gears that state none.
+            rq: [1.25 * teeth.ra; 2],
+            elastic_modulus: steel(),
+            poisson: steel_poisson(),
+        };
+        Ok(BevelPart::new(pair, surfaces, None))
+    }
 }
 
 /// That of many differentials with few teeth is 22.5 deg; that of the basic rack is the default. \[rad\]
@@ -130,8 +191,49 @@ context! {
         eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
         /// Density of the oil. [kg/m3]
         rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+        /// Pressure-viscosity coefficient of the oil. [1/GPa]
+        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
+        /// Relative decrease of the oil's viscosity with temperature. [1/K]
+        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
+        /// Thermal conductivity of the oil. [W/(m K)]
+        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
+        /// Lubricant factor of mean mesh friction stated for the oil. [-]
+        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
     } laws {
         "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
+    }
+}
+
+impl<'a, R: Real> DifferentialAt<'a, R> {
+    /// The inputs of a model of the mesh of a pinion with a side gear: torque on the pinion, speed of the pinion in the case, and whether the pinion
+    /// drives.
+    #[inline(always)]
+    pub fn mesh_at<'b>(
+        &self,
+        part: &'b BevelPart,
+        (torque, speed, pinion_drives): (R, R, bool),
+        notes: Notes<'b, R>,
+    ) -> BevelMeshAt<'b, R> {
+        BevelMeshAt {
+            part,
+            torque,
+            speed,
+            first_drives: R::constant(f64::from(u8::from(pinion_drives))),
+            // Straight flanks are equal.
+            drive_flank: R::constant(1.0),
+            temperature: self.temperature,
+            nu: self.nu,
+            eta: self.eta,
+            rho: self.rho,
+            alpha: self.alpha,
+            beta: self.beta,
+            conductivity: self.conductivity,
+            x_l: self.x_l,
+            bodies_known: R::ZERO,
+            temperature_1: self.temperature,
+            temperature_2: self.temperature,
+            notes,
+        }
     }
 }
 
@@ -140,7 +242,7 @@ impl Mechanism for Differential {
     const MEANING: &'static str = "Friction of the gears in a differential whose sides turn at different speeds.";
     const ANSWER: &'static str = "Power lost in the differential. [W]";
     const EXAMPLE: &'static str = "{ gears: { side: { z: 16, radius: 30 mm, washer_radius: 28 mm }, \
-pinion: { z: 10, seat_radius: 16 mm, pin_radius: 8 mm }, pressure_angle: 20 deg } }";
+pinion: { z: 10, seat_radius: 16 mm, pin_radius: 8 mm }, pressure_angle: 20 deg, teeth: { pinions: 2, facewidth: 14 mm, ra: 0.8 um } } }";
     const TOTAL: Term = Term::load("total");
     type Part = DifferentialPart;
     type At<'a, R: Real> = DifferentialAt<'a, R>;

@@ -98,7 +98,7 @@ pub(super) fn is_needed(transmission: &Transmission) -> bool {
 /// Draws both views; the members, gears and parts are those of the unfolded drawing.
 pub(super) fn projected(transmission: &Transmission, things: &Things) -> String {
     let mut solids = solids(transmission, things);
-    let cuts = shortened(things, &mut solids);
+    let cuts = shortened(transmission.axes(), things, &mut solids);
     let points: Vec<[f64; 3]> = solids.iter().flat_map(Solid::points).collect();
     let extent = |coordinate: usize| {
         let values = points.iter().map(|point| point[coordinate]);
@@ -155,8 +155,14 @@ fn foot(canvas: &mut Canvas, scale: f64, cut: bool) {
     }
 }
 
+/// The number of an axis in space: that of the first member on it.
+fn line_of_member(axes: &[Axis], member: usize) -> usize {
+    let same = axes.iter().position(|axis| axis.is_same(&axes[member]));
+    same.unwrap_or(member)
+}
+
 /// Shortens long bare shafts, so that the gears are large enough to be seen.
-fn shortened(things: &Things, solids: &mut [Solid<'_>]) -> Cuts {
+fn shortened(axes: &[Axis], things: &Things, solids: &mut [Solid<'_>]) -> Cuts {
     let largest = things.wheels.iter().map(|wheel| wheel.radius).fold(0.0, f64::max);
     let line_of = |what: &What| {
         let member = match *what {
@@ -164,13 +170,13 @@ fn shortened(things: &Things, solids: &mut [Solid<'_>]) -> Cuts {
             What::Gear(number) => things.wheels[number].member,
             What::Part(number) => things.parts[number].between.into_iter().flatten().next().unwrap_or(0),
         };
-        things.members[member].line
+        line_of_member(axes, member)
     };
     let bodies = solids.iter().filter_map(|solid| {
         let is_gear = matches!(solid.what, What::Gear(_));
         (!matches!(solid.what, What::Shaft(_))).then(|| (line_of(&solid.what), solid.body.ends, is_gear))
     });
-    let cuts = Cuts::new(things.lines, bodies, largest);
+    let cuts = Cuts::new(axes.len(), bodies, largest);
     for solid in solids {
         let line = line_of(&solid.what);
         solid.body.ends = solid.body.ends.map(|at| cuts.place(line, at));
@@ -364,7 +370,7 @@ impl Page<'_> {
         let [u, v] = [direction[self.view.right] / flat, direction[self.view.up] / flat];
         let reach = solid.body.radii[0] * self.scale + 4.0;
         let [from, to] = solid.body.ends;
-        for at in self.cuts.marks(self.things.members[member].line) {
+        for at in self.cuts.marks(line_of_member(self.axes, member)) {
             if at <= from || at >= to {
                 continue;
             }
@@ -455,15 +461,21 @@ impl Page<'_> {
         }
     }
 
-    /// The end of a shaft that is further from its gears: the second one unless they are nearer to it.
+    /// The end of a shaft that is further from its gears, or from those of others on its axis: the second one unless they are nearer to it.
     fn outer_end(&self, shaft: usize, solids: &[Solid<'_>]) -> usize {
-        let own = |solid: &&Solid<'_>| match solid.what {
-            What::Gear(number) => self.things.shaft_of(self.things.wheels[number].member) == shaft,
-            _ => false,
+        let line = line_of_member(self.axes, shaft);
+        let middles = |belongs: &dyn Fn(usize) -> bool| -> Vec<f64> {
+            let own = solids.iter().filter(|solid| match solid.what {
+                What::Gear(number) => belongs(self.things.wheels[number].member),
+                _ => false,
+            });
+            own.map(|solid| 0.5 * (solid.body.ends[0] + solid.body.ends[1]))
+                .collect()
         };
-        let gears: Vec<f64> = (solids.iter().filter(own))
-            .map(|solid| 0.5 * (solid.body.ends[0] + solid.body.ends[1]))
-            .collect();
+        let mut gears = middles(&|member| self.things.shaft_of(member) == shaft);
+        if gears.is_empty() {
+            gears = middles(&|member| line_of_member(self.axes, member) == line);
+        }
         let ends = solids.iter().find_map(|solid| match solid.what {
             What::Shaft(own) if own == shaft => Some(solid.body.ends),
             _ => None,
