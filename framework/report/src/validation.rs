@@ -21,7 +21,7 @@ const HEAD: &str = "\
 # Validation: models against measured sets
 
 `gearloss validate` writes this page: every number below is computed by it from the sets of the [corpus](../corpus/README.md). No model is
-tuned. A ratio is the calculated over the measured loss: 1 is exact, 2 is twice the measured loss.
+tuned. A ratio is the calculated over the measured loss, or property of an oil: 1 is exact, 2 is twice the measured one.
 
 - *ratio* is the geometric mean over the points of a set, *least* and *greatest* are those of single points; *bias*, *rms* and *max* are of the
   calculated less the measured loss, in percent of the measured loss.
@@ -32,6 +32,8 @@ tuned. A ratio is the calculated over the measured loss: 1 is exact, 2 is twice 
   band is that of the mean of a further set, by Student's t over the logarithms of the means of the sets.
 - *one factor* is a factor on the loss of the model that is fitted to the points at all other values of the condition that is left out, and predicts the rest: with
   it, the shape of the law is judged and not its level.
+- Regimes are those of the points: speed, torque, oil temperature, bound columns, the viscosity of the oil, and the film ratio of flanks (lambda) or the viscosity ratio of rolling
+  bearings (kappa), which the models of the gearbox of the set give.
 - A set whose constants a model was derived from is marked `seen` and not counted for it.
 ";
 

@@ -398,7 +398,7 @@ impl<'c> Rows<'c> {
         let limits = LimitColumn::all(engine.language, engine.study);
         let has_unit = all.iter().any(|built| engine.has_machines(&built.transmission));
         let mut none = RowsOf::none(bound, &parts, &limits, has_unit);
-        none.correction = corrections.map(|_| None);
+        none.corrected = corrections.is_some();
         Self {
             table: none.table(engine.name, []),
             corrections: corrections.cloned(),
@@ -417,7 +417,8 @@ impl<'c> Rows<'c> {
     fn taker<'r>(&self, run: &'r Run<'r>, bound: &[(String, Value)], selection: &'r Selection) -> Taker<'r> {
         let mut rows = RowsOf::new(run, bound, &self.parts, &self.limits, self.has_unit);
         let of_gear = |ready: &&Arc<ReadyCorrection>| ready.record.gear == run.points.gear;
-        rows.correction = self.corrections.as_ref().map(|all| all.iter().find(of_gear).cloned());
+        rows.corrected = self.corrections.is_some();
+        rows.correction = self.corrections.iter().flatten().find(of_gear).cloned();
         Taker {
             rows,
             wanted: self.wanted,

@@ -35,8 +35,10 @@ pub struct RowsOf {
     parts: Vec<(String, Option<usize>)>,
     /// Limits of the study at points.
     limits: Vec<LimitColumn>,
-    /// Whether points have columns of a correction, and the correction of this gear.
-    pub correction: Option<Option<Arc<ReadyCorrection>>>,
+    /// Whether points have columns of a correction.
+    pub corrected: bool,
+    /// The correction of this gear.
+    pub correction: Option<Arc<ReadyCorrection>>,
 }
 
 /// A point with its correction, if it has one.
@@ -87,6 +89,7 @@ impl RowsOf {
             bound: bound.iter().map(|path| (path.clone(), String::new())).collect(),
             parts: parts.iter().map(|part| (part.clone(), None)).collect(),
             limits: limits.to_vec(),
+            corrected: false,
             correction: None,
             has_unit,
         }
@@ -107,6 +110,7 @@ impl RowsOf {
             bound: bound.iter().map(|(path, value)| (path.clone(), word(value))).collect(),
             parts: parts.iter().map(|part| (part.clone(), place(part))).collect(),
             limits: limits.to_vec(),
+            corrected: false,
             correction: None,
             has_unit,
         }
@@ -114,12 +118,12 @@ impl RowsOf {
 
     /// The correction of a point.
     pub fn correction_of(&self, point: &PointResult) -> Option<Corrected> {
-        self.correction.as_ref()?.as_ref()?.of(point)
+        self.correction.as_ref()?.of(point)
     }
 
     /// The rows of some points.
     pub fn table<'p>(&self, name: &str, points: impl IntoIterator<Item = &'p PointResult>) -> Table {
-        let columns: &[_] = if self.correction.is_some() { &CORRECTED } else { &[] };
+        let columns: &[_] = if self.corrected { &CORRECTED } else { &[] };
         Table::of(name, points.into_iter().map(|point| (point, self.correction_of(point))))
             .text("model_set", "Model set", |_| &self.model_set)
             .text("gear", "Gear", |_| &self.gear)
@@ -233,7 +237,7 @@ impl Taker<'_> {
 
     /// Numbers of points with a loss inside and outside of the region of a correction.
     fn inside(&self, points: &Numbered<'_>) -> [usize; 2] {
-        if self.rows.correction.is_none() {
+        if !self.rows.corrected {
             return [0; 2];
         }
         let with_loss = points.iter().filter(|(_, point)| point.loss_torque.is_some());
