@@ -1,6 +1,7 @@
 //! Map as it is written in a study.
 
 use gearloss_framework::description::Ordered;
+use gearloss_framework::document::data::TableFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -27,6 +28,10 @@ pub struct MapEntry {
     /// Gear of points without a column `gear`; default: the first.
     #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
+    /// Losses of the motor at the reference port, for `gear: best` of the grid and gearboxes without a motor in a thermal network: a file as under
+    /// `motor_map` of a vehicle. Without a motor the gears are compared by the loss of the gearbox.
+    #[schemars(extend("x-refers-to" = "file"))]
+    pub motor_map: Option<TableFile>,
     /// Measured points that are drawn into the figures.
     #[schemars(extend("x-refers-to" = "measurements"))]
     pub measured: Option<Data>,
