@@ -78,7 +78,11 @@ fn driven(
 }
 
 fn shifts(driven: &Driven) -> usize {
-    driven.stretches.iter().filter(|stretch| stretch.shift.is_some()).count()
+    driven
+        .stretches
+        .iter()
+        .filter(|stretch| stretch.shift.is_some())
+        .count()
 }
 
 fn machine() -> MotorMap {
@@ -97,7 +101,12 @@ fn the_best_gear_is_that_of_brute_force_at_a_given_temperature() {
         let intervals = intervals("nycc", &vehicle, Some([20.0, 320.0]));
         let of_gear = |gear: &str| driven(&t, (&vehicle, &intervals), gear, None);
         let both = [of_gear("first"), of_gear("second")];
-        let best = driven(&t, (&vehicle, &intervals), "first", Some((&choice(rule(0.0, 0.0)), machine)));
+        let best = driven(
+            &t,
+            (&vehicle, &intervals),
+            "first",
+            Some((&choice(rule(0.0, 0.0)), machine)),
+        );
         let drawn = |driven: &Driven, i: usize| {
             let stretch = &driven.stretches[i];
             match machine {
@@ -110,7 +119,14 @@ fn the_best_gear_is_that_of_brute_force_at_a_given_temperature() {
         };
         let mut used = [0, 0];
         for i in 0..intervals.len() {
-            let least = drawn(&both[0], i).min(drawn(&both[1], i));
+            // Gears beyond the border of the machine's map are left out.
+            let excess = |run: &Driven| {
+                let stretch = &run.stretches[i];
+                machine.map_or(0.0, |map| map.excess(stretch.speed, stretch.torque))
+            };
+            let smallest = excess(&both[0]).min(excess(&both[1]));
+            let allowed = both.iter().filter(|run| excess(run) <= smallest);
+            let least = allowed.map(|run| drawn(run, i)).fold(f64::INFINITY, f64::min);
             assert!(
                 (drawn(&best, i) - least).abs() <= 1e-9 * least.abs().max(1.0),
                 "interval {i}: {} {least}",
@@ -128,10 +144,19 @@ fn the_best_gear_is_that_of_brute_force_at_a_given_temperature() {
 #[test]
 fn the_best_gear_is_that_of_brute_force_at_the_temperatures_of_a_network() {
     let language = language();
-    let t = two_speed_with(&language, None, &[("thermal", json!({ "mode": "network", "network": "auto" }))]);
+    let overrides = [
+        ("housing.outside", json!({ "box": ["400 mm", "250 mm", "300 mm"] })),
+        ("thermal", json!({ "mode": "network", "network": "auto" })),
+    ];
+    let t = two_speed_with(&language, None, &overrides);
     let vehicle = car(false);
     let intervals = intervals("nycc", &vehicle, Some([20.0, 320.0]));
-    let best = driven(&t, (&vehicle, &intervals), "first", Some((&choice(rule(0.0, 0.0)), None)));
+    let best = driven(
+        &t,
+        (&vehicle, &intervals),
+        "first",
+        Some((&choice(rule(0.0, 0.0)), None)),
+    );
     assert!(best.stretches[0].temperatures.len() > 1);
     let cases = ["first", "second"].map(|gear| t.case(gear, &["output"], &["output"]).unwrap());
     let mut compared = 0;
@@ -142,7 +167,11 @@ fn the_best_gear_is_that_of_brute_force_at_the_temperatures_of_a_network() {
         if torque <= 0.0 {
             continue;
         }
-        let before = if i == 0 { &best.start } else { &best.stretches[i - 1].temperatures };
+        let before = if i == 0 {
+            &best.start
+        } else {
+            &best.stretches[i - 1].temperatures
+        };
         let losses = [0, 1].map(|gear| {
             let mut scratch = t.scratch(&cases[gear]);
             let ratio = t.speeds(&cases[gear], &[1.0])[t.ports()[t.reference_port()].member];
@@ -224,7 +253,12 @@ fn the_energy_of_a_shift_is_that_of_synchronising_the_rotor() {
     let vehicle = car(true);
     let intervals = intervals("nycc", &vehicle, Some([20.0, 320.0]));
     let map = machine();
-    let driven = driven(&t, (&vehicle, &intervals), "first", Some((&choice(rule(0.0, 0.0)), Some(&map))));
+    let driven = driven(
+        &t,
+        (&vehicle, &intervals),
+        "first",
+        Some((&choice(rule(0.0, 0.0)), Some(&map))),
+    );
     let ratios = ["first", "second"].map(|gear| {
         let case = t.case(gear, &["output"], &["output"]).unwrap();
         t.speeds(&case, &[1.0])[t.ports()[t.reference_port()].member].abs()
@@ -283,9 +317,13 @@ fn ran(gear: &str, cycle: &str, files: &[(&str, &str)]) -> Ran {
 
 #[test]
 fn results_state_time_energy_and_shifts() {
-    let ran = ran("{ choose: best, saving: 100 W, dwell: 2 s, actuation: 20 J }", TOWN, &[]);
+    let ran = ran(
+        "{ choose: best, saving: 100 W, dwell: 2 s, actuation: 20 J }",
+        TOWN,
+        &[],
+    );
     let duty = &ran.json("c")["cycles"][0];
-    let gears = &duty["gears"];
+    let gears = &duty["gears_used"];
     assert_eq!(gears["criterion"], "machine_power");
     let sum = |key: &str| -> f64 { gears["gears"].as_array().unwrap().iter().map(|g| number(&g[key])).sum() };
     for key in ["time_share", "input_share", "loss_share"] {
@@ -305,7 +343,10 @@ fn results_state_time_energy_and_shifts() {
     let first = lines.iter().filter(|gear| *gear == "first").count();
     let stated = gears["gears"][0]["time_s"].as_f64().unwrap();
     assert!((first as f64 - stated).abs() < 1e-9, "{first} {stated}");
-    for words in ["gears: the best gear of the moment, if a shift saves more than 100 W", " shifts"] {
+    for words in [
+        "gears: the best gear of the moment, if a shift saves more than 100 W",
+        " shifts",
+    ] {
         assert!(ran.text.contains(words), "{}", ran.text);
     }
 }
@@ -314,7 +355,7 @@ fn results_state_time_energy_and_shifts() {
 fn a_map_states_the_gears() {
     let map = "speed [rpm],torque [Nm],gear\n0,-5000,first\n0,0,first\n200,-5000,second\n200,0,first\n";
     let ran = ran("{ map: shift.csv }", TOWN, &[("shift.csv", map)]);
-    let gears = &ran.json("c")["cycles"][0]["gears"];
+    let gears = &ran.json("c")["cycles"][0]["gears_used"];
     assert_eq!(gears["criterion"], Value::Null);
     assert!(number(&gears["shifts"]) > 3.0);
     // Only braking above 200 rpm uses the second gear.
@@ -324,11 +365,14 @@ fn a_map_states_the_gears() {
 #[test]
 fn limits_shift_at_once_and_are_counted() {
     // 60 km/h are 13.3 times 60/3.6/0.31 rad/s: the first gear turns the input at 11200 rpm.
-    let ran = ran("{ choose: best, saving: 100 kW, most_speed: 6000 rpm }", "{ shipped: udds, start: 160 s, end: 340 s }", &[]);
-    let gears = &ran.json("c")["cycles"][0]["gears"];
+    let ran = ran(
+        "{ choose: best, saving: 100 kW, most_speed: 6000 rpm }",
+        "{ shipped: udds, start: 160 s, end: 340 s }",
+        &[],
+    );
+    let gears = &ran.json("c")["cycles"][0]["gears_used"];
     assert!(number(&gears["forced_shifts"]) > 0.0, "{gears}");
     assert!(number(&gears["intervals_beyond_limits"]) > 0.0, "{gears}");
-    assert!(ran.text.contains("every gear is beyond a limit"), "{}", ran.text);
 }
 
 /// Loads without an order in time have a best gear each, and no shifts.
@@ -336,7 +380,7 @@ fn limits_shift_at_once_and_are_counted() {
 fn a_spectrum_has_the_best_gear_of_each_load() {
     let cycle = "{ spectrum: [{ torque: -300 Nm, speed: 100 rpm, share: 0.5 }, { torque: -40 Nm, speed: 1000 rpm, share: 0.5 }], port: output }";
     let ran = ran("best", cycle, &[]);
-    let gears = &ran.json("c")["cycles"][0]["gears"];
+    let gears = &ran.json("c")["cycles"][0]["gears_used"];
     assert_eq!(gears["shifts"], Value::Null);
     assert!(!gears["gears"].as_array().unwrap().is_empty());
 }
@@ -346,13 +390,29 @@ fn what_is_wrong_is_refused_with_its_place() {
     let map = "speed [rpm],torque [Nm],gear\n0,0,first\n100,0,third\n";
     let table = "time [s],torque [Nm],speed [rpm]\n0,10,1000\n1,10,1000\n2,10,1000\n";
     let cases = [
-        ("third", TOWN, "unknown gear state"),
+        ("third", TOWN, "no gear state is called `third`"),
         ("{ saving: 10 W }", TOWN, "needs either `choose` or `map`"),
-        ("{ choose: best, map: shift.csv }", TOWN, "needs either `choose` or `map`"),
-        ("{ map: shift.csv, saving: 10 W }", TOWN, "`saving` has no effect beside `map`"),
-        ("{ map: shift.csv }", TOWN, "line 3: the gearbox has no gear state `third`"),
+        (
+            "{ choose: best, map: shift.csv }",
+            TOWN,
+            "needs either `choose` or `map`",
+        ),
+        (
+            "{ map: shift.csv, saving: 10 W }",
+            TOWN,
+            "`saving` has no effect beside `map`",
+        ),
+        (
+            "{ map: shift.csv }",
+            TOWN,
+            "line 3: the gearbox has no gear state `third`",
+        ),
         ("{ map: none.csv }", TOWN, "cannot read none.csv"),
-        ("{ choose: best, gears: [first, neutral] }", TOWN, "`neutral` cannot be chosen"),
+        (
+            "{ choose: best, gears: [first, neutral] }",
+            TOWN,
+            "`neutral` cannot be chosen",
+        ),
         ("{ choose: best, gears: [first, third] }", TOWN, "third"),
         ("best", "{ file: rig.csv }", "they already depend on the gear"),
     ];

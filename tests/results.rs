@@ -13,11 +13,12 @@ use parquet::record::Field;
 use serde_json::{Map, Value, json};
 
 /// The examples, and a study of every analysis with every variant.
-const STUDIES: [&str; 4] = [
+const STUDIES: [&str; 5] = [
     "examples/two-speed-ev/study.yaml",
     "examples/two-products/study.yaml",
     "examples/planetary-reducer/study.yaml",
     "tests/results/study.yaml",
+    "tests/results/gear_choice.yaml",
 ];
 
 /// Records of rare results, which no study here has: a minimum at a kink, whose contents are tested with the models that make it,
@@ -36,13 +37,17 @@ const OPEN: [&str; 7] = [
 ];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 27] = [
+const OPTIONAL: [&str; 31] = [
     "mesh_load",
     "of",
     "unit",
     "machines",
     "unit_loss_w",
     "system_efficiency",
+    "gears_used",
+    "best_gears",
+    "best_gear",
+    "shifts_kwh_per_100_km",
     "crossed_stages",
     "lengthwise_sliding_m_s",
     "data",

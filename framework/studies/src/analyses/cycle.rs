@@ -284,7 +284,7 @@ impl CycleAnalysisEntry {
         for (read, driven) in duties.list.iter().zip(driven) {
             let mut duty = results::duty(b, read, driven, &shares, self.reference.get(&read.name));
             duty.consumption = duties.consumption(t, driven);
-            duty.gears = gears::gears(t, &duties.ride(t, read), driven);
+            duty.gears_used = gears::gears(t, &duties.ride(t, read), driven);
             if let Some(ratings) = &ratings {
                 let rated = ratings::over_cycle(t, ratings, &duties.ride(t, read), driven);
                 duty.ratings = Some(rated.map_err(|list| b.gearbox.findings(list))?);
@@ -457,7 +457,7 @@ impl CycleOutcome {
 
     /// True if gears are chosen or change in a cycle.
     fn gears_differ(&self) -> bool {
-        self.cycles.iter().any(|duty| duty.gears.is_some())
+        self.cycles.iter().any(|duty| duty.gears_used.is_some())
     }
 
     /// Nodes of all cycles, in the order of the first.

@@ -6,7 +6,7 @@ use crate::codes;
 use crate::duty::{Battery, Consumption, Demand, Duty, Given, Interval, Vehicle, VehicleEntry};
 use crate::points::{Choosing, Driven, GearChoice, OilTemperature, Ride, can_drive, drive};
 use crate::study::{By, Conditions, RideEntry};
-use gearloss_framework::document::data::MeasuredFault;
+use gearloss_framework::document::data::{MeasuredFault, TableFile};
 use gearloss_framework::document::{Diagnostic, classify};
 use gearloss_framework::machine::Machine;
 use gearloss_framework::motor::MotorMap;
@@ -585,18 +585,22 @@ fn battery_of(cx: &Planner<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Op
             fixed_efficiency: vehicle.efficiency,
         }));
     };
-    let (at, file) = (format!("{path}.motor_map"), map.name());
-    let bytes = cx.study.read_file(file);
-    let bytes = bytes
-        .map_err(|e| vec![Diagnostic::error(&at, format!("cannot read {file}: {e}")).help("check the file name")])?;
-    cx.keep_input(file, &bytes);
-    let of_file = |fault: MeasuredFault| Diagnostic::error(&at, format!("{file}: {}", fault.message)).help(fault.help);
-    let motor =
-        MotorMap::read_stated(map, &bytes).map_err(|faults| faults.into_iter().map(of_file).collect::<Vec<_>>())?;
+    let motor = motor_map(cx, &format!("{path}.motor_map"), map)?;
     Ok(Some(Battery {
         entry,
         // The port is that of the cycle, wherever it is in the gearbox.
         motor: Some(Machine::of_map(&at, (0, 0), motor)),
         fixed_efficiency: vehicle.efficiency,
     }))
+}
+
+/// Reads the losses of a motor.
+pub fn motor_map(cx: &Planner<'_>, at: &str, map: &TableFile) -> Result<MotorMap, Vec<Diagnostic>> {
+    let file = map.name();
+    let bytes = cx.study.read_file(file);
+    let bytes = bytes
+        .map_err(|e| vec![Diagnostic::error(at, format!("cannot read {file}: {e}")).help("check the file name")])?;
+    cx.keep_input(file, &bytes);
+    let of_file = |fault: MeasuredFault| Diagnostic::error(at, format!("{file}: {}", fault.message)).help(fault.help);
+    MotorMap::read_stated(map, &bytes).map_err(|faults| faults.into_iter().map(of_file).collect::<Vec<_>>())
 }

@@ -16,6 +16,7 @@ use std::sync::Arc;
 use gearloss_fmu::Library;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Extent;
+use gearloss_framework::motor::MotorMap;
 use serde_json::Value;
 
 pub use axes::Axes;
@@ -30,6 +31,7 @@ use self::export::ExportData;
 use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
+use super::duties::motor_map;
 use super::limits::at_points::LimitColumn;
 use super::rows::RowsPlan;
 use super::units::libraries;
@@ -51,6 +53,8 @@ register_analysis!(MapEntry);
 pub struct MapPlan<'a> {
     points: PointsOfMap<'a>,
     libraries: Vec<Library>,
+    /// Losses of the motor, for the best gear.
+    machine: Option<MotorMap>,
     /// Measured points for figures.
     measured: Measured,
     /// The corrections by gear.
@@ -126,7 +130,16 @@ impl Analysis for MapEntry {
         self.check_machines(cx, &points)?;
         // The libraries of FMUs, if one is exported.
         let is_needed = self.export.iter().any(|name| name.format().has_library());
+        let has_best =
+            matches!(&points, PointsOfMap::Grid(planned) if planned.iter().any(|plan| !plan.gears.is_empty()));
+        let at = format!("{path}.motor_map");
+        if self.motor_map.is_some() && !has_best {
+            let help = "delete it, or write `gear: best` in the grid";
+            return Err(cx.wrong(&at, "without a choice of gears a motor changes no result", help));
+        }
+        let machine = self.motor_map.as_ref().map(|map| motor_map(cx, &at, map));
         Ok(MapPlan {
+            machine: machine.transpose().map_err(|list| cx.found(list))?,
             points,
             libraries: libraries(cx, &self.fmu_libraries, is_needed)?,
             corrections,
@@ -141,7 +154,7 @@ impl Analysis for MapEntry {
         let corrections = plan.corrections.as_ref();
         let (rows, maps, about_points) = match &plan.points {
             PointsOfMap::Grid(planned) => {
-                let (rows, maps) = self.over_grid(engine, planned, corrections)?;
+                let (rows, maps) = self.over_grid(engine, planned, (corrections, plan.machine.as_ref()))?;
                 (rows, maps, Vec::new())
             }
             PointsOfMap::List(listed) => self.over_list(engine, listed, corrections)?,
@@ -199,7 +212,7 @@ impl MapEntry {
         &self,
         engine: &'a Engine<'a>,
         planned: &[Planned<'a>],
-        corrections: Option<&Corrections>,
+        (corrections, machine): (Option<&Corrections>, Option<&MotorMap>),
     ) -> Result<(Rows<'a>, Vec<Map<'a>>), Stopped> {
         let bound: Vec<String> = planned.first().map_or_else(Vec::new, |first| {
             first.bound.iter().map(|(path, _)| path.clone()).collect()
@@ -213,8 +226,8 @@ impl MapEntry {
             let runs = if plan.gears.is_empty() {
                 vec![plan.run.clone()]
             } else {
-                let runs = best::chosen(engine, &plan.gears)?;
-                map.gears = best::gears(&runs);
+                let runs = best::chosen(engine, &plan.gears, machine)?;
+                map.gears = best::gears(&runs, machine.is_some());
                 runs
             };
             for run in &runs {

@@ -7,7 +7,7 @@ use crate::text::{TextTable, short, significant};
 
 /// The lines of a cycle whose gears are chosen or change.
 pub fn text(duty: &DutyOfSet, page: &mut Page) {
-    let Some(gears) = &duty.gears else { return };
+    let Some(gears) = &duty.gears_used else { return };
     page.line(format!("  gears: {}{}", gears.choice, compared(gears)));
     let mut table = TextTable::new(&["gear", "time s", "time %", "input %", "loss kJ", "loss %"]);
     for gear in &gears.gears {
@@ -63,7 +63,7 @@ fn compared(gears: &GearsOfDuty) -> &'static str {
 
 /// Share of the time by gear, in words.
 pub fn words(duty: &DutyOfSet) -> Option<String> {
-    let gears = duty.gears.as_ref()?;
+    let gears = duty.gears_used.as_ref()?;
     let parts: Vec<String> = gears
         .gears
         .iter()

@@ -63,7 +63,7 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
                 );
             }
         }
-        if let (Some(gears), Some(shares)) = (&duty.gears, super::gears::words(duty)) {
+        if let (Some(gears), Some(shares)) = (&duty.gears_used, super::gears::words(duty)) {
             let shifts = gears.shifts.map_or_else(|| "-".to_owned(), |shifts| shifts.to_string());
             page.key_figure(&format!("shifts, {of}"), shifts, "", shares);
         }

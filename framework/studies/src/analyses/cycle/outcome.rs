@@ -69,7 +69,7 @@ pub struct DutyOfSet {
     pub consumption: Option<Consumption>,
     /// Time and energy in each gear, and shifts; absent if one gear is stated and used throughout.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub gears: Option<GearsOfDuty>,
+    pub gears_used: Option<GearsOfDuty>,
     /// Heat balance; absent without a thermal network.
     pub heat: Option<HeatOfDuty>,
     /// Losses of the motors of the thermal network.

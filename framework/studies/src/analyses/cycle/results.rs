@@ -44,7 +44,7 @@ pub fn duty(
         energy,
         per_distance: per_distance(driven),
         consumption: None,
-        gears: None,
+        gears_used: None,
         heat: heat(t, driven),
         motors: motors(t, driven),
         motors_beyond_map: driven.total.beyond_map,

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use gearloss_framework::document::Diagnostic;
+use gearloss_framework::motor::MotorMap;
 use gearloss_framework::thermal::network::Network;
 use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
@@ -66,14 +67,15 @@ pub fn runs<'a>(cx: &Planner<'a>, path: &str, built: &Arc<Built<'a>>, field: &Fi
     Ok(runs)
 }
 
-/// The runs with the points at which each gear draws least.
-pub fn chosen<'a>(engine: &Engine<'_>, runs: &[Run<'a>]) -> Result<Vec<Run<'a>>, Stopped> {
-    let mut least: Vec<(f64, usize)> = Vec::new();
+/// The runs with the points at which each gear draws least. `machine` are the losses of a motor at the reference port.
+pub fn chosen<'a>(engine: &Engine<'_>, runs: &[Run<'a>], machine: Option<&MotorMap>) -> Result<Vec<Run<'a>>, Stopped> {
+    let mut least: Vec<([f64; 2], usize)> = Vec::new();
     for (gear, run) in runs.iter().enumerate() {
-        least.resize(run.points.field.len(), (f64::INFINITY, 0));
+        least.resize(run.points.field.len(), ([f64::INFINITY; 2], 0));
         let t = &run.built.transmission;
-        let make = |points: &mut Numbered<'_>| -> Vec<(usize, f64)> {
-            points.iter().map(|(number, point)| (*number, cost(t, point))).collect()
+        let make = |points: &mut Numbered<'_>| -> Vec<(usize, [f64; 2])> {
+            let cost = |point: &PointResult| cost(t, machine, point);
+            points.iter().map(|(number, point)| (*number, cost(point))).collect()
         };
         engine.solve_pieces(run, &make, &mut |piece| {
             drop(piece.map(|costs| {
@@ -107,7 +109,7 @@ pub fn chosen<'a>(engine: &Engine<'_>, runs: &[Run<'a>]) -> Result<Vec<Run<'a>>,
 }
 
 /// The gears of a map.
-pub fn gears(runs: &[Run<'_>]) -> Option<BestGears> {
+pub fn gears(runs: &[Run<'_>], has_machine: bool) -> Option<BestGears> {
     let total: usize = runs.iter().map(|run| run.points.field.len()).sum();
     let of = |run: &Run<'_>| PointsInGear {
         gear: run.points.gear.clone(),
@@ -116,7 +118,7 @@ pub fn gears(runs: &[Run<'_>]) -> Option<BestGears> {
     };
     let t = &runs.first()?.built.transmission;
     Some(BestGears {
-        criterion: if motors(t) > 0 {
+        criterion: if has_machine || motors(t) > 0 {
             Criterion::MachinePower
         } else {
             Criterion::GearboxLoss
@@ -129,17 +131,24 @@ fn motors(t: &Transmission) -> usize {
     t.network().map_or(0, |network| network.motors().len())
 }
 
-/// What a point draws: the power of the machines of a thermal network, or the loss of the gearbox; infinite without a solution. \[W\]
-fn cost(t: &Transmission, point: &PointResult) -> f64 {
+/// How far a point is outside the map of its machine, and the power of the machine, or the loss of the gearbox; infinite without a solution.
+/// The least in this order is the best. \[-, W\]
+fn cost(t: &Transmission, machine: Option<&MotorMap>, point: &PointResult) -> [f64; 2] {
     let Some(loss) = point.loss.filter(|loss| loss.is_finite()) else {
-        return f64::INFINITY;
-    };
-    let network = t.network().filter(|network| network.names().len() == point.nodes.len());
-    let Some(network) = network.filter(|_| motors(t) > 0) else {
-        return loss;
+        return [f64::INFINITY; 2];
     };
     let power = loss - point.torque * point.torque_speed;
-    power + motor_losses(t, network, point, power)
+    let speed = point.reference_speed;
+    if let Some(map) = machine {
+        let torque = if speed == 0.0 { 0.0 } else { power / speed };
+        let oil = point.oil.unwrap_or(f64::NAN);
+        return [map.excess(speed, torque), power + map.loss(speed, torque, oil).loss];
+    }
+    let network = t.network().filter(|network| network.names().len() == point.nodes.len());
+    match network.filter(|_| motors(t) > 0) {
+        Some(network) => [0.0, power + motor_losses(t, network, point, power)],
+        None => [0.0, loss],
+    }
 }
 
 /// Losses of the motors at the reference port, which transmits a power. \[W\]
@@ -149,7 +158,11 @@ fn motor_losses(t: &Transmission, network: &Network, point: &PointResult, power:
     let of = |motor: usize| {
         let (member, [_, stator]) = network.motor_nodes(motor);
         let losses = network.motor_loss(motor, speed, torque, point.nodes[stator]);
-        if member == reference { losses[0] + losses[1] } else { 0.0 }
+        if member == reference {
+            losses[0] + losses[1]
+        } else {
+            0.0
+        }
     };
     (0..network.motors().len()).map(of).sum()
 }

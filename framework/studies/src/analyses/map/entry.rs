@@ -1,6 +1,7 @@
 //! Map as it is written in a study.
 
 use gearloss_framework::description::Ordered;
+use gearloss_framework::document::data::TableFile;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +33,10 @@ pub struct MapEntry {
     /// What figures, and tables for other programs, show: the gearbox, the machines, or the drive unit of both. Files contain the quantities of all.
     #[serde(default)]
     pub of: MapOf,
+    /// Losses of the motor at the reference port, for `gear: best` of the grid and gearboxes without a motor in a thermal network: a file as under
+    /// `motor_map` of a vehicle. Without a motor the gears are compared by the loss of the gearbox.
+    #[schemars(extend("x-refers-to" = "file"))]
+    pub motor_map: Option<TableFile>,
     /// Measured points that are drawn into the figures.
     #[schemars(extend("x-refers-to" = "measurements"))]
     pub measured: Option<Data>,

@@ -278,7 +278,7 @@ pub struct MapPoints {
 pub struct MapPoint<'a> {
     /// Gear of the point; absent if all points of the map have the same.
     #[serde(skip_serializing_if = "Option::is_none")]
-    gear: Option<&'a str>,
+    best_gear: Option<&'a str>,
     /// Torque. [Nm]
     torque_nm: Option<f64>,
     /// Speed. [rpm]
@@ -437,7 +437,7 @@ impl MapPoints {
             .binary_search_by_key(&row_of_chunk, |loss| loss.number)
             .ok();
         MapPoint {
-            gear: self.text_of_column(GEAR, row).filter(|_| self.names_gears),
+            best_gear: self.text_of_column(GEAR, row).filter(|_| self.names_gears),
             torque_nm: number(0),
             speed_rpm: number(1),
             oil_temperature_degc: number(2),
