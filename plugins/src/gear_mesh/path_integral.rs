@@ -335,6 +335,39 @@ register!(GearMesh, "path_integral", PathIntegral,
             values: &[("total", "221.384 W")],
             ..SIX_DIGITS
         },
+        Check {
+            input: "{ model: { type: path_integral, load_sharing: { type: relief, kappa: 0.5 }, tooth_friction: { type: constant, value: \
+                    0.05 } }, at: { torque: 200 Nm, speed: 1500 rpm } }",
+            values: &[("H_vL", "0.186967"), ("total", "293.686 W")],
+            source: "closed form of the share of spur gears with linear tip reliefs, independently computed",
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: path_integral, load_sharing: { type: relief, amount: 20 um, stiffness: 14 GPa }, tooth_friction: { \
+                    type: constant, value: 0.05 } }, at: { torque: 400 Nm, speed: 1500 rpm } }",
+            values: &[("H_vL", "0.190898")],
+            source: "closed form of the share of spur gears with linear tip reliefs, independently computed",
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: path_integral, load_sharing: { type: relief, amount: 20 um, stiffness: 14 GPa }, tooth_friction: { \
+                    type: constant, value: 0.05 } }, at: { torque: 100 Nm, speed: 1500 rpm } }",
+            values: &[("H_vL", "0.170265")],
+            tolerance: 2e-3,
+            because: "the loss is interpolated between the loads at which the shares are prepared",
+            source: "closed form of the share of spur gears with linear tip reliefs, independently computed",
+        },
+        Check {
+            input: "{ model: { type: path_integral, load_sharing: { type: slices, stiffness: iso6336, single_stiffness: 14 GPa }, \
+                    tooth_friction: { type: constant, value: 0.05 } }, part: { z: [16, 24], normal_module: 4.5 mm, pressure_angle: 20 deg, centre_distance: 91.5 mm, \
+                    facewidth: 14 mm, tip_diameter: [82.636 mm, 118.544 mm], profile_shift: [0.1817, 0.1715], ra: [0.4 um, 0.4 um], rq: [0.5 um, 0.5 um], \
+                    modification: [{ tip_relief: { amount: 20 um }, crowning: 5 um }, { tip_relief: { amount: 20 um } }], misalignment: 10 \
+                    um }, at: { torque: 200 Nm, speed: 1500 rpm } }",
+            values: &[("H_vL", "0.183334"), ("total", "287.980 W")],
+            tolerance: 2e-3,
+            because: "the loss is interpolated between the loads at which the shares are prepared",
+            source: "thin slices of constant stiffness, 20 slices and 200 phases, independently computed",
+        },
     ],
     terms: [SLIDING, ROLLING], observed: [MU_MEAN, LOSS_FACTOR], prepare: prepare);
 
@@ -531,6 +564,56 @@ pub(crate) mod tests {
         let local = json!({ "type": "local", "at": "path", "load_sharing": "rigid", "tooth_friction": xu });
         let mean = watts(&json!({ "type": "wimmer", "load_sharing": "rigid", "mean_friction": local }));
         assert!((mean / integral - 1.0).abs() < 1e-6, "{mean} {integral}");
+    }
+
+    /// Sharings that depend on the load: several points together have the bits of each alone, and derivatives are those of differences.
+    #[test]
+    fn sharings_that_depend_on_the_load_serve_several_points_and_derivatives() {
+        use gearloss_framework::contact::sharing::modification::{FlankModification, Relief, ReliefShape};
+        use gearloss_framework::loss::{NoteBase, Notebook};
+        use gearloss_framework::mechanism::{Inputs as _, Mechanism as _};
+        use gearloss_framework::real::LANES;
+        let registry = Registry::linked().unwrap();
+        let files = Files::default();
+        let flank = FlankModification {
+            tip_relief: Some(Relief {
+                amount: 15e-6,
+                length: None,
+                from_diameter: None,
+                shape: ReliefShape::Linear,
+            }),
+            crowning: 4e-6,
+            ..FlankModification::default()
+        };
+        for kind in [Kind::Spur, Kind::Helical, Kind::Internal] {
+            let part = Arc::new(pair_of(kind).with_flanks([flank; 2], 8e-6));
+            let points: [GearMeshAt<'_>; LANES] = std::array::from_fn(|i| {
+                GearMeshAt::usual(&part, Notes::MUTED).with(|to| {
+                    to.torque = 25.0 * i as f64;
+                    to.speed *= 1.0 + 0.1 * i as f64;
+                })
+            });
+            let all = GearMeshAt::together(&part, Notebook::CLOSED.notes(NoteBase::default()), |i| points[i]);
+            let stiffness = if matches!(kind, Kind::Internal) {
+                "iso6336"
+            } else {
+                "weber"
+            };
+            let sharing = json!({ "type": "slices", "stiffness": stiffness, "slices": 12, "phases": 60 });
+            for friction in [json!({ "type": "constant", "value": 0.05 }), json!({ "type": "xu" })] {
+                let model = json!({ "type": "path_integral", "load_sharing": sharing, "tooth_friction": friction,
+                    "rolling_friction": "goksem_hargreaves", "average": "base_pitch", "rolling_thermal": true, "rolling_speed": "sum" });
+                let slot = Build::new(&registry, &files)
+                    .slot_at::<GearMesh>("model", &part, &model)
+                    .unwrap();
+                let together = GearMesh::answer_together(&*slot, &all).unwrap();
+                for (i, at) in points.iter().enumerate() {
+                    let alone = slot.loss(at).unwrap();
+                    assert_eq!(together.at_point(i), alone, "{kind:?} {i}");
+                    assert!(alone.sum().is_finite() && (alone.sum() == 0.0) == (i == 0));
+                }
+            }
+        }
     }
 
     #[test]

@@ -218,12 +218,13 @@ impl LoadedShares {
         let [.., end] = pair.points;
         let opening = slices.gap().range() * stiffness.at(0.5 * (pair.points[0] + end), USUAL);
         let knots = if slices.gap().is_none() || opening <= NO_GAP * 1e9 {
-            match stiffness.depends_on_load() {
-                true => Knots {
+            if stiffness.depends_on_load() {
+                Knots {
                     coordinate: Coordinate::Closing(USUAL),
                     places: vec![0.1, 1.0, 1.9],
-                },
-                false => Knots::ONE,
+                }
+            } else {
+                Knots::ONE
             }
         } else {
             Knots {

@@ -166,7 +166,9 @@ impl Pair {
             let exact = table.moment(self, [piece[0], piece[1]]);
             if sum > 0.0 && exact > 0.0 {
                 let factor = exact / sum;
-                points[first..].iter_mut().for_each(|p| p.share *= factor);
+                for point in &mut points[first..] {
+                    point.share *= factor;
+                }
             }
         }
         points

@@ -25,8 +25,8 @@ pub struct SharingAtRating {
     pub load_sharing: String,
     /// Loss of one pair of gears with it. [W]
     pub loss_w: f64,
-    /// The same with thin slices, with the stated modifications. [W]
-    pub sliced_loss_w: f64,
+    /// The same with thin slices, with the stated modifications; null if its sharing is one of thin slices. [W]
+    pub sliced_loss_w: Option<f64>,
     /// True if no modification and no misalignment is stated.
     pub unmodified: bool,
 }
@@ -47,9 +47,9 @@ impl SharingAtRating {
         } else {
             ""
         };
-        format!(
-            "at the rated torque in `{gear}`: {mesh}: `{load_sharing}`: {loss_w:.1} W; by slices {sliced_loss_w:.1} W{stated}"
-        )
+        let sliced = sliced_loss_w.map(|watts| format!("; by slices {watts:.1} W"));
+        let sliced = sliced.unwrap_or_default();
+        format!("at the rated torque in `{gear}`: {mesh}: `{load_sharing}`: {loss_w:.1} W{sliced}{stated}")
     }
 }
 
@@ -101,9 +101,7 @@ fn sharing(
     path: &str,
 ) -> Option<SharingAtRating> {
     let own: SharingEntry = serde_json::from_value(model.get("load_sharing")?.clone()).ok()?;
-    if matches!(own, SharingEntry::Calculated(CalculatedSharing::Slices(_))) {
-        return None;
-    }
+    let is_sliced = matches!(own, SharingEntry::Calculated(CalculatedSharing::Slices(_)));
     let part = Arc::new(at.part.clone());
     let mut build = Build::new(language.registry(), &checked.gearbox.files);
     let mut loss = |model: &Value| {
@@ -128,7 +126,7 @@ fn sharing(
         gear: String::new(),
         load_sharing: written.as_str().or_else(|| written["type"].as_str())?.to_owned(),
         loss_w: loss(model)?,
-        sliced_loss_w: loss(&other)?,
+        sliced_loss_w: if is_sliced { None } else { Some(loss(&other)?) },
         unmodified: part.misalignment == 0.0 && part.flanks.iter().all(|flank| *flank == Default::default()),
     })
 }

@@ -203,8 +203,9 @@ pub(super) fn shares(pair: &Pair, name: &str, bytes: &[u8]) -> Result<LoadedShar
                 }
             }
         }
-        deviation = deviation.max((worst.0 - 1.0).abs());
-        if !((worst.0 - 1.0).abs() <= CORRECTED) {
+        let off = (worst.0 - 1.0).abs();
+        deviation = deviation.max(off);
+        if off > CORRECTED || off.is_nan() {
             let place = worst.1.map_or_else(
                 || "on average over a base pitch".to_owned(),
                 |phase| format!("{phase:.3} of a base pitch after the first contact"),

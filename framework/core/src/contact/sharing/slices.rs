@@ -350,7 +350,9 @@ impl Slices {
         // All pairs together carry the force.
         if whole > 0.0 && end > start {
             let scale = self.pair.base_pitch / whole;
-            rows.iter_mut().for_each(|row| row.share *= scale);
+            for row in &mut rows {
+                row.share *= scale;
+            }
         }
         ShareTable::new(rows)
     }

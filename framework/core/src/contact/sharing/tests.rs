@@ -451,7 +451,6 @@ fn a_mesh_at_a_load_takes_less_than_five_milliseconds() {
     let shares = LoadedShares::from_slices(&pair, &stiffness, &slices);
     let loads = shares.tables.len() * 2 - 1;
     let each = start.elapsed().as_secs_f64() / loads as f64;
-    println!("{:.3} ms per load, error {:.2e}", each * 1e3, shares.error);
     // Without optimisation it takes many times as long.
     assert!(shares.error < 0.02, "{}", shares.error);
     assert!(each < if cfg!(debug_assertions) { 0.5 } else { 5e-3 }, "{each}");
