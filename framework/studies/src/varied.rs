@@ -187,7 +187,9 @@ impl Varied {
             columns.push(column);
         }
         if columns[0].windows(2).all(|pair| pair[0] > pair[1]) {
-            columns.iter_mut().for_each(|column| column.reverse());
+            for column in &mut columns {
+                column.reverse();
+            }
         } else if !columns[0].windows(2).all(|pair| pair[0] < pair[1]) {
             let help = "sort the rows by their first value, which must not repeat";
             return wrong(

@@ -31,7 +31,7 @@ use crate::hydraulics::Hydraulics;
 use crate::language::Language;
 use crate::loads::ShaftLoads;
 use crate::loss::Term;
-use crate::machine::{self, Contained};
+use crate::machine::{self, Contained, Machine};
 use crate::mechanism::auxiliary::Auxiliary;
 use crate::mechanism::bearing::Bearing;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart, FlankSurfaces};
@@ -92,17 +92,7 @@ impl Transmission {
         let supports = &models.supports;
         let housing = Housing::new(entry, &mut build, &mut found);
         classify(&mut found, codes::THERMAL);
-        let counted = models.of_rotors(&frame, &build);
-        let around = machine::Around {
-            names: &frame.nodes,
-            ports,
-            shafts: &entry.ports,
-            files,
-            counted: &counted,
-        };
-        let mut machines = machine::machines(entry, around, &mut found, &mut warnings);
-        classify(&mut found, codes::MACHINE);
-        machines.extend(machine::motors(entry, around, &machines, &mut found));
+        let machines = models.machines(&frame, (&build, files), &mut found, &mut warnings);
         let around = Around {
             names: &frame.nodes,
             members: &members.names,
@@ -535,6 +525,28 @@ impl Models {
 }
 
 impl Models {
+    /// The electric machines at the ports, with the motors of the thermal network.
+    fn machines(
+        &self,
+        frame: &Frame,
+        (build, files): (&Build<'_>, &Files),
+        found: &mut Vec<Diagnostic>,
+        warnings: &mut Vec<Diagnostic>,
+    ) -> Vec<Arc<Machine>> {
+        let counted = self.of_rotors(frame, build);
+        let around = machine::Around {
+            names: &frame.nodes,
+            ports: &frame.ports,
+            shafts: &frame.entry.ports,
+            files,
+            counted: &counted,
+        };
+        let mut machines = machine::machines(&frame.entry, around, found, warnings);
+        classify(found, codes::MACHINE);
+        machines.extend(machine::motors(&frame.entry, around, &machines, found));
+        machines
+    }
+
     /// Bearings and windage of shafts with a loss, which a loss map of a machine may contain: shaft, path and what it is.
     fn of_rotors(&self, frame: &Frame, build: &Build<'_>) -> Vec<(String, String, Contained)> {
         // Windage of a rotor or a shaft has terms of its surfaces.

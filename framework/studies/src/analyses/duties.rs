@@ -251,6 +251,23 @@ impl<'a> Duties<'a> {
         self.battery.as_ref()?.consumption(driven, oil)
     }
 
+    /// Refuses a machine of the vehicle beside one of the gearbox. A fixed temperature replaces the network with its motors.
+    fn machine_once(&self, cx: &Planner<'_>, path: &str, t: &Transmission) -> Result<(), Stopped> {
+        let oil = OilTemperature::from_conditions(t, self.conditions.oil_temperature);
+        let Some(machine) = t.active_machines(oil == OilTemperature::Network).next() else {
+            return Ok(());
+        };
+        if self.battery.as_ref().is_none_or(|battery| battery.motor.is_none()) {
+            return Ok(());
+        }
+        let message = if machine.only_in_network {
+            "`motor_map` of the vehicle, but the thermal network of the gearbox has a motor"
+        } else {
+            "`motor_map` of the vehicle, but the gearbox has a machine: its losses would be counted twice"
+        };
+        Err(cx.wrong_as(codes::DUTY, path, message, "delete `motor_map` of the vehicle"))
+    }
+
     /// Reasons why the cycles cannot be simulated with a gearbox.
     pub fn check(&self, cx: &Planner<'_>, path: &str, b: &Built<'_>) -> Result<(), Stopped> {
         let oil = OilTemperature::from_conditions(&b.transmission, self.conditions.oil_temperature);
@@ -262,19 +279,7 @@ impl<'a> Duties<'a> {
             let error = gearloss_framework::attach::dangling(&at, "shaft", unknown, &members);
             return Err(cx.study.findings(vec![error]).into());
         }
-        // A fixed temperature replaces the network with its motors.
-        let mut machines = b.transmission.active_machines(oil == OilTemperature::Network);
-        let machine = machines.next().map(|machine| machine.only_in_network);
-        if let Some(only_in_network) = machine
-            && self.battery.as_ref().is_some_and(|battery| battery.motor.is_some())
-        {
-            let message = if only_in_network {
-                "`motor_map` of the vehicle, but the thermal network of the gearbox has a motor"
-            } else {
-                "`motor_map` of the vehicle, but the gearbox has a machine: its losses would be counted twice"
-            };
-            return Err(cx.wrong_as(codes::DUTY, path, message, "delete `motor_map` of the vehicle"));
-        }
+        self.machine_once(cx, path, &b.transmission)?;
         let in_time = self.list.iter().find(|read| matches!(read.duty, Duty::Trace(_)));
         if let (OilTemperature::Balance, Some(read)) = (oil, in_time) {
             let message = format!(

@@ -119,6 +119,19 @@ impl Scope<'_> {
         machines.next().is_some()
     }
 
+    /// The drive unit as what a quantity belongs to.
+    fn of_unit(&self, path: &str, (of, stated): (&str, Option<&str>)) -> Result<Owner, Findings> {
+        if stated.is_some() {
+            return Err(self.wrong(of, "this quantity is that of the drive unit", "delete `of`"));
+        }
+        if self.has_machine() {
+            return Ok(Owner::Unit);
+        }
+        let message = "the gearbox has no machine, or it belongs to a thermal network that is not used";
+        let error = Diagnostic::error(path, message).help("describe it under `machines` of the gearbox");
+        Err(self.found(error.code(codes::NO_MACHINE)))
+    }
+
     fn wrong(&self, path: &str, message: impl Into<String>, help: &str) -> Findings {
         self.found(Diagnostic::error(path, message.into()).help(help).code(codes::ANALYSIS))
     }
@@ -204,35 +217,13 @@ impl Limit {
                 components: known_components(scope, of, component.unwrap_or("*"))?,
             },
             (LimitedQuantity::Ratio, None) => Owner::Gear(0),
-            (
-                LimitedQuantity::DcPower
-                | LimitedQuantity::MachineLoss
-                | LimitedQuantity::UnitLoss
-                | LimitedQuantity::SystemEfficiency,
-                Some(_),
-            ) => {
-                return Err(scope.wrong(of, "this quantity is that of the drive unit", "delete `of`"));
-            }
-            (
-                LimitedQuantity::DcPower
-                | LimitedQuantity::MachineLoss
-                | LimitedQuantity::UnitLoss
-                | LimitedQuantity::SystemEfficiency,
-                None,
-            ) => {
-                if !scope.has_machine() {
-                    let message = "the gearbox has no machine, or it belongs to a thermal network that is not used";
-                    let help = "describe it under `machines` of the gearbox";
-                    let error = Diagnostic::error(path, message).help(help).code(codes::NO_MACHINE);
-                    return Err(scope.found(error));
-                }
-                Owner::Unit
-            }
             (LimitedQuantity::Ratio, Some(gear)) => {
                 let names: Vec<&str> = t.states().iter().map(|state| state.name.as_str()).collect();
                 let place = names.iter().position(|known| *known == gear);
                 Owner::Gear(place.ok_or_else(|| scope.found(dangling(of, "gear state", gear, &names)))?)
             }
+            // All others are those of the drive unit.
+            (_, stated) => scope.of_unit(path, (of, stated))?,
         };
         let bound = |key: &str, value: &Option<Value>| -> Result<Option<f64>, Findings> {
             let number = value.as_ref().map(|value| quantity(value, unit));

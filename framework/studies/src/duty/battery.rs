@@ -225,12 +225,11 @@ enum Source {
 impl Energies {
     fn new(battery: &BatteryEntry) -> Self {
         // One of the two is stated: this is checked where the battery is read.
-        let source = match &battery.cells {
-            Some(cells) => Source::Cells(Cells::new(cells)),
-            None => {
-                let efficiency = battery.efficiency.unwrap_or(1.0);
-                Source::Efficiency([efficiency, battery.charge_efficiency.unwrap_or(efficiency)])
-            }
+        let source = if let Some(cells) = &battery.cells {
+            Source::Cells(Cells::new(cells))
+        } else {
+            let efficiency = battery.efficiency.unwrap_or(1.0);
+            Source::Efficiency([efficiency, battery.charge_efficiency.unwrap_or(efficiency)])
         };
         Self {
             source,

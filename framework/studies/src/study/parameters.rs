@@ -134,7 +134,8 @@ fn range(name: &str, whole: &Value) -> Result<Value, Diagnostic> {
         .get("values")
         .and_then(Value::as_array)
         .is_some_and(|rows| !rows.is_empty());
-    if !rows && !(stated("from") && stated("to")) {
+    let ends = stated("from") && stated("to");
+    if !rows && !ends {
         let message = format!("the parameter `{name}` states no range");
         return Err(Diagnostic::error("", message).help(format!("give `parameters.{name}` both `from` and `to`")));
     }

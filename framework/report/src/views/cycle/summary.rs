@@ -78,6 +78,15 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             page.careful
                 .push(format!("{of} ends at {} s: {}", short(broken.time_s), broken.reason));
         }
+        let lacking = duty.consumption.map_or(0.0, |consumption| {
+            consumption.lacking_kwh_per_100_km + consumption.shortfall_kwh_per_100_km
+        });
+        if lacking > 0.0 {
+            page.careful.push(format!(
+                "{of}: the vehicle cannot follow the cycle and lacks {} kWh/100 km, so its consumption is not comparable",
+                short(lacking)
+            ));
+        }
         let cautions = duty
             .machines
             .iter()
