@@ -330,7 +330,8 @@ mod tests {
             assert!((yx * turned[0] + yy * turned[1] - load).abs() < 1e-6 * load, "{load}");
         }
         let [[xx, xy], [yx, yy]] = journal.loaded(1e-3, &at(&part, 1500.0, 1e-3).0).matrix();
-        assert!(xx.abs() < 1e-3 * xy && yy.abs() < 1e-3 * xy, "{xx} {yy} {xy}");
+        // The attitude angle of the fit is 88.7 degrees there.
+        assert!(xx.abs() < 0.03 * xy && yy.abs() < 0.03 * xy, "{xx} {yy} {xy}");
         assert_close(yx, -xy, 1e-3);
     }
 
