@@ -184,7 +184,7 @@ pub struct NewGearboxArgs {
     pub output: PathBuf,
 }
 
-/// Layouts that are asked for and cannot be described yet.
+/// Layouts that are asked for and do not exist.
 const UNDESCRIBED: [&str; 5] = ["bevel", "hypoid", "cycloidal", "strain-wave", "helical-worm"];
 
 /// Names of layouts with what they are.

@@ -118,14 +118,15 @@ fn physics_that_is_absent_is_named() {
         assert!(!said.text.contains("choose one of these keys"), "{}", said.text);
     }
     for (layout, what) in [
-        ("worm", "no layout has worm stages"),
-        ("hypoid", "no layout has hypoid stages"),
+        ("helical-worm", "new gearbox worm"),
+        ("hypoid", "new gearbox axle"),
+        ("bevel", "new gearbox bevel-helical"),
     ] {
         let said = case.gearloss(&["new", "gearbox", layout, "-o", "new.yaml"]);
         assert!(said.code == Some(2) && said.text.contains(what), "{}", said.text);
     }
     let said = case.gearloss(&["new", "gearbox", "--help"]);
-    assert!(!said.text.contains("worm"), "{}", said.text);
+    assert!(!said.text.contains("cycloidal"), "{}", said.text);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gearloss_framework::language::{DESCRIBE_THE_REST, Kind, stage_with_section, undescribed_stage};
+use gearloss_framework::language::{DESCRIBE_THE_REST, Kind, undescribed_stage};
 use gearloss_workbench::form::{LAYOUTS, Layout};
 
 use super::{print_next, word, write, write_schema};
@@ -47,12 +47,15 @@ fn study_of(file: &Path) -> String {
     command
 }
 
-/// A layout whose physics is not modelled.
+/// Names that are asked for, and the layout that has their stage.
+const NEAREST: [(&str, &str); 3] = [("bevel", "bevel-helical"), ("hypoid", "axle"), ("helical-worm", "worm")];
+
+/// A layout that does not exist, or whose physics is not modelled.
 fn undescribed(layout: &str) -> Failure {
-    if let Some((stage, section)) = stage_with_section(layout) {
+    if let Some((_, nearest)) = NEAREST.iter().find(|(name, _)| *name == layout) {
         return Failure::input(
-            format!("no layout has {stage}"),
-            format!("start with another layout, and describe the pair in `{section}`: docs/gearbox.md shows it"),
+            format!("no layout is called `{layout}`"),
+            format!("start with `gearloss new gearbox {nearest}`, which has such a stage"),
         );
     }
     let stage = undescribed_stage(layout).unwrap_or("such gearboxes");
