@@ -34,6 +34,9 @@ gearloss_framework::document::codes! {
     SHIFT_MAP = "E0531", "invalid map of gears",
         cause: "A file under `gear: { map: ... }` cannot be read, has no gear for a speed and torque of its grid, or names a gear that the gearbox does not have.",
         help: "Correct the file: columns `speed [rpm]`, `torque [Nm]` and `gear`, with the same torques at each speed.";
+    AXLE_SPLIT = "E0532", "invalid front and rear unit",
+        cause: "Two units cannot drive a cycle: one has no machine or no given temperature, its disconnected state does not separate wheels and input, or the cycle states no speed of a vehicle.",
+        help: "Correct the key that the message names.";
     DATA = "E0601", "invalid measured data",
         cause: "A data file lacks a column, has cells that cannot be read, or has units or accuracies that contradict the study.",
         help: "Correct the file, or its description under `measurements`.";

@@ -237,6 +237,11 @@ impl<'a> Duties<'a> {
         self.battery.is_some() && intervals.all(|interval| interval.given.vehicle_speed.is_some())
     }
 
+    /// Losses of the machine that the vehicle states.
+    pub fn machine(&self) -> Option<&MotorMap> {
+        self.battery.as_ref().and_then(|battery| battery.motor.as_ref())
+    }
+
     /// Whether the losses of a machine are described: in the thermal network, or by a map of the vehicle.
     pub fn has_machine(&self, t: &Transmission) -> bool {
         let in_network = || {
@@ -386,7 +391,7 @@ impl<'a> Duties<'a> {
             gear: gear_of(self.gear, t),
             choice: self.choice.as_ref().map(|choice| Choosing {
                 choice,
-                machine: self.battery.as_ref().and_then(|battery| battery.motor.as_ref()),
+                machine: self.machine(),
             }),
             oil: OilTemperature::from_conditions(t, self.conditions.oil_temperature),
             spectrum: matches!(read.duty, Duty::Spectrum(_)),

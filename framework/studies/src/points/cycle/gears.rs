@@ -13,7 +13,7 @@ use gearloss_framework::thermal::network::Network;
 use gearloss_framework::transmission::Transmission;
 use serde::{Deserialize, Serialize};
 
-use super::{Asked, At, Cases, Driven, Ride, around, ask, drive_through, point_of, steady_temperatures};
+use super::{Asked, At, Cases, Driven, Ride, around, ask, drive_through, point_of, steady_temperatures, wheels};
 use crate::codes;
 use crate::duty::{Demand, Interval, ShiftMap, Vehicle};
 use crate::points::OilTemperature;
@@ -156,8 +156,8 @@ impl<'a> Chooser<'a> {
         let needs_offers = self.given.is_none() && !matches!(self.choosing.choice.by, ChosenBy::Map(_));
         let offers = match (needs_offers, warm) {
             (false, _) => Vec::new(),
-            (true, Some(warm)) => self.offers(cases, intervals, &|_| warm, driven)?,
-            (true, None) => self.offers_in_steady_state(cases, rest, count, driven)?,
+            (true, Some(warm)) => self.offers(cases, intervals, &|_| warm, &mut driven.evaluations)?,
+            (true, None) => self.offers_in_steady_state(cases, rest, count, &mut driven.evaluations)?,
         };
         let mut now = self.now;
         let mut all = Vec::with_capacity(count);
@@ -262,18 +262,19 @@ impl<'a> Chooser<'a> {
         cases: &mut Cases<'_>,
         rest: &[Interval],
         count: usize,
-        driven: &mut Driven,
+        evaluations: &mut usize,
     ) -> Result<Vec<Vec<Offer>>, Vec<Diagnostic>> {
         if self.ahead.len() < count {
             let given = |interval: &Interval| interval.given.oil_temperature.or(cases.ride.oil.given());
             let given: Vec<[f64; 1]> = rest.iter().take(LANES).map_while(|i| Some([given(i)?])).collect();
             self.ahead = if given.len() >= count {
                 let temperatures = |i: usize| given[i].as_slice();
-                self.offers(cases, &rest[..given.len()], &temperatures, driven)?.into()
+                self.offers(cases, &rest[..given.len()], &temperatures, evaluations)?
+                    .into()
             } else {
                 let offers: Result<Vec<_>, _> = rest[..count]
                     .iter()
-                    .map(|interval| self.offers_at_equilibrium(cases, interval, driven))
+                    .map(|interval| self.offers_at_equilibrium(cases, interval, evaluations))
                     .collect();
                 offers?.into()
             };
@@ -286,7 +287,7 @@ impl<'a> Chooser<'a> {
         &self,
         cases: &mut Cases<'_>,
         interval: &Interval,
-        driven: &mut Driven,
+        evaluations: &mut usize,
     ) -> Result<Vec<Offer>, Vec<Diagnostic>> {
         let mut offers = Vec::new();
         for candidate in &self.candidates {
@@ -298,7 +299,7 @@ impl<'a> Chooser<'a> {
                 offers.push(NO_SOLUTION);
                 continue;
             };
-            driven.evaluations += warm.evaluations();
+            *evaluations += warm.evaluations();
             let temperatures = warm.temperatures().to_vec();
             let one = Self {
                 choosing: self.choosing,
@@ -311,7 +312,7 @@ impl<'a> Chooser<'a> {
                 ahead: VecDeque::new(),
                 passed: 0,
             };
-            let found = one.offers(cases, std::slice::from_ref(interval), &|_| &temperatures, driven)?;
+            let found = one.offers(cases, std::slice::from_ref(interval), &|_| &temperatures, evaluations)?;
             offers.push(found[0][0]);
         }
         Ok(offers)
@@ -323,7 +324,7 @@ impl<'a> Chooser<'a> {
         cases: &mut Cases<'_>,
         intervals: &[Interval],
         temperatures: &dyn Fn(usize) -> &'t [f64],
-        driven: &mut Driven,
+        evaluations: &mut usize,
     ) -> Result<Vec<Vec<Offer>>, Vec<Diagnostic>> {
         let mut all: Vec<Vec<Offer>> = vec![Vec::with_capacity(self.candidates.len()); intervals.len()];
         for candidate in &self.candidates {
@@ -337,8 +338,8 @@ impl<'a> Chooser<'a> {
                 }
             }
             let mut found = self.evaluate(cases, &asked, temperatures);
-            driven.evaluations += asked.len();
-            self.limit(cases, intervals, (&asked, &mut found), temperatures, driven)?;
+            *evaluations += asked.len();
+            self.limit(cases, intervals, (&asked, &mut found), temperatures, evaluations)?;
             let mut found = asked.iter().map(|(i, _)| *i).zip(found).peekable();
             for (i, offers) in all.iter_mut().enumerate() {
                 let offer = match found.next_if(|(place, _)| *place == i) {
@@ -367,7 +368,7 @@ impl<'a> Chooser<'a> {
         intervals: &[Interval],
         (asked, found): (&[(usize, Asked)], &mut [Option<Evaluated>]),
         temperatures: &dyn Fn(usize) -> &'t [f64],
-        driven: &mut Driven,
+        evaluations: &mut usize,
     ) -> Result<(), Vec<Diagnostic>> {
         let Some(vehicle) = cases.ride.vehicle else {
             return Ok(());
@@ -393,7 +394,7 @@ impl<'a> Chooser<'a> {
                 ));
             }
         }
-        driven.evaluations += limited.len();
+        *evaluations += limited.len();
         for (k, again) in places.into_iter().zip(self.evaluate(cases, &limited, temperatures)) {
             found[k] = again;
         }
@@ -660,11 +661,11 @@ pub(super) fn drive_optimum(
     // Without a network every interval has its own temperature.
     let has_network = t.network().is_some() && ride.oil == OilTemperature::Network;
     let at = |i: usize| starts[if has_network { i } else { i + 1 }];
-    let mut counted = by_rule.clone();
+    let mut evaluations = by_rule.evaluations;
     let mut offers = Vec::with_capacity(ride.intervals.len());
     for first in (0..ride.intervals.len()).step_by(LANES) {
         let some = &ride.intervals[first..ride.intervals.len().min(first + LANES)];
-        offers.extend(chooser.offers(&mut cases, some, &|i| at(first + i), &mut counted)?);
+        offers.extend(chooser.offers(&mut cases, some, &|i| at(first + i), &mut evaluations)?);
     }
     let durations: Vec<f64> = ride.intervals.iter().map(|interval| interval.duration).collect();
     let has_machine = has_machine(t, ride);
@@ -685,7 +686,6 @@ pub(super) fn drive_optimum(
             .filter(|stretch| stretch.shift.is_some())
             .count(),
     };
-    let evaluations = counted.evaluations;
     chooser.given = Some(best);
     let driven = drive_through(t, ride, chooser.given, &|_| progress(0))?;
     Ok(driven.map(|driven| Driven {
@@ -701,4 +701,52 @@ impl Chooser<'_> {
         self.given = given;
         self
     }
+}
+
+/// What the intervals of a ride draw in the gears of its choice at given temperatures of the oil; with several gears, in the first one.
+///
+/// # Errors
+/// If no gear can be chosen, or a temperature is not given.
+pub fn offers_of(t: &Transmission, ride: &Ride<'_>) -> Result<Vec<Offer>, Vec<Diagnostic>> {
+    let mut cases = Cases::new(t, ride)?;
+    let Some(chooser) = Chooser::new(&mut cases)? else {
+        return Ok(Vec::new());
+    };
+    let mut all = Vec::with_capacity(ride.intervals.len());
+    let mut evaluations = 0;
+    for some in ride.intervals.chunks(LANES) {
+        let oil = |interval: &Interval| interval.given.oil_temperature.or(ride.oil.given()).unwrap_or(f64::NAN);
+        let oils: Vec<[f64; 1]> = some.iter().map(|interval| [oil(interval)]).collect();
+        let offers = chooser.offers(&mut cases, some, &|i| oils[i].as_slice(), &mut evaluations)?;
+        all.extend(offers.into_iter().map(|offers| offers[0]));
+    }
+    Ok(all)
+}
+
+/// Torque of the wheels that tows a gearbox whose input stands, against the rotation, at speeds of the wheels (rad/s) and temperatures of the oil
+/// (degC). \[Nm\]
+///
+/// # Errors
+/// If the gear state does not separate the wheels from the input.
+pub fn tow_torques(t: &Transmission, state: &str, points: &[(f64, f64)]) -> Result<Vec<f64>, Vec<Diagnostic>> {
+    let port = wheels(t).map_err(|error| vec![error])?;
+    let name = |port: usize| t.ports()[port].name.as_str();
+    let case = t.case(state, &[name(port), name(t.reference_port())], &[])?;
+    let mut scratch = t.scratch(&case);
+    let mut tow = |(speed, oil): &(f64, f64)| {
+        if *speed == 0.0 {
+            return Ok(0.0);
+        }
+        let point = Point {
+            speeds: &[*speed, 0.0],
+            ..Point::default()
+        };
+        t.try_point(&case, &point, &[*oil], &mut scratch, Noting::Counted)
+            .map_err(|_| {
+                let message = format!("the towed gearbox has no losses at {} rad/s", speed);
+                vec![Diagnostic::error("gear_states", message).help("examine the point with `explain`")]
+            })?;
+        Ok(scratch.port_torque(t.ports()[port].member) * speed.signum())
+    };
+    points.iter().map(&mut tow).collect()
 }
