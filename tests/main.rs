@@ -5,6 +5,7 @@
 
 mod analyses;
 mod api;
+mod axle_split;
 mod batched;
 mod bearing_loads;
 mod browser;

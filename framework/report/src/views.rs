@@ -1,5 +1,6 @@
 //! The views of the analyses.
 
+pub mod axle_split;
 pub mod balance;
 pub mod breakdown;
 pub mod compare;

@@ -4,6 +4,7 @@
 //! reference and the report find it.
 
 pub mod axes;
+pub mod axle_split;
 pub mod balance;
 pub mod breakdown;
 pub mod compare;

@@ -34,6 +34,9 @@ gearloss_framework::document::codes! {
     SHIFT_MAP = "E0531", "invalid map of gears",
         cause: "A file under `gear: { map: ... }` cannot be read, has no gear for a speed and torque of its grid, or names a gear that the gearbox does not have.",
         help: "Correct the file: columns `speed [rpm]`, `torque [Nm]` and `gear`, with the same torques at each speed.";
+    AXLE_SPLIT = "E0532", "invalid front and rear unit",
+        cause: "Two units cannot drive a cycle: one has no machine or no given temperature, its disconnected state does not separate wheels and input, or the cycle states no speed of a vehicle.",
+        help: "Correct the key that the message names.";
     BATTERY = "E0540", "contradictory battery",
         cause: "A battery states neither a constant efficiency nor its cells, or both, or values of its cells contradict each other.",
         help: "State `efficiency`, or `cells` with voltage and resistance, and correct the key that the message names.";

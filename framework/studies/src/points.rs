@@ -14,9 +14,12 @@ mod sums;
 mod temperature;
 mod unit;
 
-pub use cycle::{Choosing, ChosenBy, Driven, GearChoice, Optimum, Ride, Shift, Stretch, can_drive, drive, has_machine};
+pub use cycle::{
+    Choosing, ChosenBy, Driven, GearChoice, Optimum, Ride, Shift, Stretch, can_drive, drive, has_machine, offers_of,
+    tow_torques,
+};
 pub use derivatives::{Derivative, Derivatives, Derived, Method, Variable};
-pub use gear_rule::Rule;
+pub use gear_rule::{Offer, Rule};
 pub use gearloss_numerics::statistics::{Statistics, bands, correlation, histogram, levels, quantile};
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use locking::{SelfLocking, self_locking};

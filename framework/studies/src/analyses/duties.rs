@@ -238,11 +238,16 @@ impl<'a> Duties<'a> {
         self.battery.is_some() && intervals.all(|interval| interval.given.vehicle_speed.is_some())
     }
 
+    /// The machine that the vehicle states.
+    pub fn machine(&self) -> Option<&Machine> {
+        self.battery.as_ref().and_then(|battery| battery.motor.as_ref())
+    }
+
     /// Whether the losses of a machine are described: in the gearbox, or by a map of the vehicle.
     pub fn has_machine(&self, t: &Transmission) -> bool {
         let oil = OilTemperature::from_conditions(t, self.conditions.oil_temperature);
         let in_gearbox = || t.active_machines(oil == OilTemperature::Network).next().is_some();
-        self.battery.as_ref().is_some_and(|battery| battery.motor.is_some()) || in_gearbox()
+        self.machine().is_some() || in_gearbox()
     }
 
     /// Energy of the vehicle over a simulated cycle; absent without a battery or without distance.
@@ -395,7 +400,7 @@ impl<'a> Duties<'a> {
             gear: gear_of(self.gear, t),
             choice: self.choice.as_ref().map(|choice| Choosing {
                 choice,
-                machine: self.battery.as_ref().and_then(|battery| battery.motor.as_ref()),
+                machine: self.machine(),
             }),
             oil: OilTemperature::from_conditions(t, self.conditions.oil_temperature),
             spectrum: matches!(read.duty, Duty::Spectrum(_)),
@@ -590,22 +595,22 @@ fn battery_of(cx: &Planner<'_>, path: &str, vehicle: &VehicleEntry) -> Result<Op
             fixed_efficiency: vehicle.efficiency,
         }));
     };
-    let motor = motor_map(cx, &format!("{path}.motor_map"), map)?;
     Ok(Some(Battery {
         entry,
-        // The port is that of the cycle, wherever it is in the gearbox.
-        motor: Some(Machine::of_map(&at, (0, 0), motor)),
+        motor: Some(machine_of_map(cx, &format!("{path}.motor_map"), map)?),
         fixed_efficiency: vehicle.efficiency,
     }))
 }
 
-/// Reads the losses of a motor.
-pub fn motor_map(cx: &Planner<'_>, at: &str, map: &TableFile) -> Result<MotorMap, Vec<Diagnostic>> {
+/// A machine with the losses of a file, at the port of a cycle or the reference port, wherever it is in the gearbox.
+pub fn machine_of_map(cx: &Planner<'_>, at: &str, map: &TableFile) -> Result<Machine, Vec<Diagnostic>> {
     let file = map.name();
     let bytes = cx.study.read_file(file);
     let bytes = bytes
         .map_err(|e| vec![Diagnostic::error(at, format!("cannot read {file}: {e}")).help("check the file name")])?;
     cx.keep_input(file, &bytes);
     let of_file = |fault: MeasuredFault| Diagnostic::error(at, format!("{file}: {}", fault.message)).help(fault.help);
-    MotorMap::read_stated(map, &bytes).map_err(|faults| faults.into_iter().map(of_file).collect::<Vec<_>>())
+    let map = MotorMap::read_stated(map, &bytes);
+    let map = map.map_err(|faults| faults.into_iter().map(of_file).collect::<Vec<_>>())?;
+    Ok(Machine::of_map(at, (0, 0), map))
 }

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use gearloss_fmu::Library;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::loss::Extent;
-use gearloss_framework::motor::MotorMap;
+use gearloss_framework::machine::Machine;
 use serde_json::Value;
 
 pub use axes::Axes;
@@ -31,7 +31,7 @@ use self::export::ExportData;
 use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
-use super::duties::motor_map;
+use super::duties::machine_of_map;
 use super::limits::at_points::LimitColumn;
 use super::rows::RowsPlan;
 use super::units::libraries;
@@ -54,7 +54,7 @@ pub struct MapPlan<'a> {
     points: PointsOfMap<'a>,
     libraries: Vec<Library>,
     /// Losses of the motor, for the best gear.
-    machine: Option<MotorMap>,
+    machine: Option<Machine>,
     /// Measured points for figures.
     measured: Measured,
     /// The corrections by gear.
@@ -137,7 +137,7 @@ impl Analysis for MapEntry {
             let help = "delete it, or write `gear: best` in the grid";
             return Err(cx.wrong(&at, "without a choice of gears a motor changes no result", help));
         }
-        let machine = self.motor_map.as_ref().map(|map| motor_map(cx, &at, map));
+        let machine = self.motor_map.as_ref().map(|map| machine_of_map(cx, &at, map));
         Ok(MapPlan {
             machine: machine.transpose().map_err(|list| cx.found(list))?,
             points,
@@ -212,7 +212,7 @@ impl MapEntry {
         &self,
         engine: &'a Engine<'a>,
         planned: &[Planned<'a>],
-        (corrections, machine): (Option<&Corrections>, Option<&MotorMap>),
+        (corrections, machine): (Option<&Corrections>, Option<&Machine>),
     ) -> Result<(Rows<'a>, Vec<Map<'a>>), Stopped> {
         let bound: Vec<String> = planned.first().map_or_else(Vec::new, |first| {
             first.bound.iter().map(|(path, _)| path.clone()).collect()
@@ -227,7 +227,7 @@ impl MapEntry {
                 vec![plan.run.clone()]
             } else {
                 let runs = best::chosen(engine, &plan.gears, machine)?;
-                map.gears = best::gears(&runs, machine.is_some());
+                map.gears = best::gears(&runs, machine.is_some() || engine.has_machines(&plan.run.built.transmission));
                 runs
             };
             for run in &runs {

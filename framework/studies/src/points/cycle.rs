@@ -20,7 +20,7 @@ use gearloss_framework::thermal::network::{Heats, March, Moment, Passed, Scheme,
 use gearloss_framework::transmission::{Case, Transmission, WHEELS};
 use serde::{Deserialize, Serialize};
 
-pub use self::gears::{Choosing, ChosenBy, GearChoice, Optimum, Shift, has_machine};
+pub use self::gears::{Choosing, ChosenBy, GearChoice, Optimum, Shift, has_machine, offers_of, tow_torques};
 
 /// Settings of a simulation.
 #[derive(Clone, Copy)]

@@ -128,11 +128,6 @@ impl Network {
         machine.in_rotor_and_stator(speed, machine.loss(speed, torque, temperature).machine)
     }
 
-    /// How far a speed (rad/s) and a torque (Nm) are outside the map of a motor, relative to its border. \[-\]
-    pub fn motor_excess(&self, motor: usize, speed: f64, torque: f64) -> f64 {
-        self.motors[motor].machine.map().map_or(0.0, |map| map.excess(speed, torque))
-    }
-
     /// Speeds (rad/s) and torques (Nm) of the map of a motor, both ascending and not negative; `None` without a map.
     pub fn motor_axes(&self, motor: usize) -> Option<[Vec<f64>; 2]> {
         let nodes = self.motors[motor].machine.map()?.nodes();

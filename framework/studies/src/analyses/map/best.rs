@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::motor::MotorMap;
-use gearloss_framework::thermal::network::Network;
+use gearloss_framework::machine::{Machine, MachineState, Reached};
 use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -67,8 +66,8 @@ pub fn runs<'a>(cx: &Planner<'a>, path: &str, built: &Arc<Built<'a>>, field: &Fi
     Ok(runs)
 }
 
-/// The runs with the points at which each gear draws least. `machine` are the losses of a motor at the reference port.
-pub fn chosen<'a>(engine: &Engine<'_>, runs: &[Run<'a>], machine: Option<&MotorMap>) -> Result<Vec<Run<'a>>, Stopped> {
+/// The runs with the points at which each gear draws least. `machine` is a stated one at the reference port.
+pub fn chosen<'a>(engine: &Engine<'_>, runs: &[Run<'a>], machine: Option<&Machine>) -> Result<Vec<Run<'a>>, Stopped> {
     let mut least: Vec<([f64; 2], usize)> = Vec::new();
     for (gear, run) in runs.iter().enumerate() {
         least.resize(run.points.field.len(), ([f64::INFINITY; 2], 0));
@@ -116,9 +115,8 @@ pub fn gears(runs: &[Run<'_>], has_machine: bool) -> Option<BestGears> {
         points: run.points.field.len(),
         share: run.points.field.len() as f64 / total as f64,
     };
-    let t = &runs.first()?.built.transmission;
     Some(BestGears {
-        criterion: if has_machine || motors(t) > 0 {
+        criterion: if has_machine {
             Criterion::MachinePower
         } else {
             Criterion::GearboxLoss
@@ -127,42 +125,24 @@ pub fn gears(runs: &[Run<'_>], has_machine: bool) -> Option<BestGears> {
     })
 }
 
-fn motors(t: &Transmission) -> usize {
-    t.network().map_or(0, |network| network.motors().len())
-}
-
-/// How far a point is outside the map of its machine, and the power of the machine, or the loss of the gearbox; infinite without a solution.
-/// The least in this order is the best. \[-, W\]
-fn cost(t: &Transmission, machine: Option<&MotorMap>, point: &PointResult) -> [f64; 2] {
+/// How far a point is outside the map of its machines, and their power, or the loss of the gearbox; infinite without a solution. The least in
+/// this order is the best. \[-, W\]
+fn cost(t: &Transmission, machine: Option<&Machine>, point: &PointResult) -> [f64; 2] {
     let Some(loss) = point.loss.filter(|loss| loss.is_finite()) else {
         return [f64::INFINITY; 2];
     };
-    let power = loss - point.torque * point.torque_speed;
-    let speed = point.reference_speed;
-    if let Some(map) = machine {
+    if let Some(machine) = machine {
+        let (power, speed) = (loss - point.torque * point.torque_speed, point.reference_speed);
         let torque = if speed == 0.0 { 0.0 } else { power / speed };
-        let oil = point.oil.unwrap_or(f64::NAN);
-        return [map.excess(speed, torque), power + map.loss(speed, torque, oil).loss];
+        let temperatures = [point.oil.unwrap_or(f64::NAN)];
+        let state = t.machine_at(machine, speed, torque, &temperatures);
+        let outside = machine.map().map_or(0.0, |map| map.excess(speed, torque));
+        return [outside, power + state.machine + state.inverter];
     }
-    let network = t.network().filter(|network| network.names().len() == point.nodes.len());
-    match network.filter(|_| motors(t) > 0) {
-        Some(network) => [0.0, power + motor_losses(t, network, point, power)],
-        None => [0.0, loss],
+    if point.machines.is_empty() {
+        return [0.0, loss];
     }
-}
-
-/// Losses of the motors at the reference port, which transmits a power. \[W\]
-fn motor_losses(t: &Transmission, network: &Network, point: &PointResult, power: f64) -> f64 {
-    let (reference, speed) = (t.ports()[t.reference_port()].member, point.reference_speed);
-    let torque = if speed == 0.0 { 0.0 } else { power / speed };
-    let of = |motor: usize| {
-        let (member, [_, stator]) = network.motor_nodes(motor);
-        let losses = network.motor_loss(motor, speed, torque, point.nodes[stator]);
-        if member == reference {
-            losses[0] + losses[1]
-        } else {
-            0.0
-        }
-    };
-    (0..network.motors().len()).map(of).sum()
+    let is_beyond = |state: &MachineState| state.outside || state.reached == Reached::Beyond;
+    let beyond = point.machines.iter().filter(|state| is_beyond(state)).count();
+    [beyond as f64, point.machines.iter().map(MachineState::electric).sum()]
 }

@@ -39,6 +39,8 @@ pub struct RowsOf {
     pub corrected: bool,
     /// The correction of this gear.
     pub correction: Option<Arc<ReadyCorrection>>,
+    /// Whether there are columns of the drive unit.
+    has_unit: bool,
 }
 
 /// A point with its correction, if it has one.
@@ -76,8 +78,6 @@ fn corrected((point, correction): &PointWith<'_>) -> Option<[f64; 6]> {
         whole * speed,
         0.5 * (high - low) * speed,
     ])
-    /// Whether there are columns of the drive unit.
-    has_unit: bool,
 }
 
 impl RowsOf {

@@ -7,13 +7,13 @@ use std::collections::VecDeque;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{Noting, Point};
-use gearloss_framework::motor::MotorMap;
+use gearloss_framework::machine::Machine;
 use gearloss_framework::real::LANES;
 use gearloss_framework::thermal::network::Network;
 use gearloss_framework::transmission::Transmission;
 use serde::{Deserialize, Serialize};
 
-use super::{Asked, At, Cases, Driven, Ride, around, ask, drive_through, point_of, steady_temperatures};
+use super::{Asked, At, Cases, Driven, Ride, around, ask, drive_through, point_of, steady_temperatures, wheels};
 use crate::codes;
 use crate::duty::{Demand, Interval, ShiftMap, Vehicle};
 use crate::points::OilTemperature;
@@ -54,8 +54,8 @@ pub enum ChosenBy {
 pub struct Choosing<'a> {
     /// The choice.
     pub choice: &'a GearChoice,
-    /// Losses of the machine that a vehicle states; those of a thermal network are known to it.
-    pub machine: Option<&'a MotorMap>,
+    /// The machine that a vehicle states; those of the gearbox are known to it.
+    pub machine: Option<&'a Machine>,
 }
 
 /// A shift at the start of an interval.
@@ -156,8 +156,8 @@ impl<'a> Chooser<'a> {
         let needs_offers = self.given.is_none() && !matches!(self.choosing.choice.by, ChosenBy::Map(_));
         let offers = match (needs_offers, warm) {
             (false, _) => Vec::new(),
-            (true, Some(warm)) => self.offers(cases, intervals, &|_| warm, driven)?,
-            (true, None) => self.offers_in_steady_state(cases, rest, count, driven)?,
+            (true, Some(warm)) => self.offers(cases, intervals, &|_| warm, &mut driven.evaluations)?,
+            (true, None) => self.offers_in_steady_state(cases, rest, count, &mut driven.evaluations)?,
         };
         let mut now = self.now;
         let mut all = Vec::with_capacity(count);
@@ -262,18 +262,19 @@ impl<'a> Chooser<'a> {
         cases: &mut Cases<'_>,
         rest: &[Interval],
         count: usize,
-        driven: &mut Driven,
+        evaluations: &mut usize,
     ) -> Result<Vec<Vec<Offer>>, Vec<Diagnostic>> {
         if self.ahead.len() < count {
             let given = |interval: &Interval| interval.given.oil_temperature.or(cases.ride.oil.given());
             let given: Vec<[f64; 1]> = rest.iter().take(LANES).map_while(|i| Some([given(i)?])).collect();
             self.ahead = if given.len() >= count {
                 let temperatures = |i: usize| given[i].as_slice();
-                self.offers(cases, &rest[..given.len()], &temperatures, driven)?.into()
+                self.offers(cases, &rest[..given.len()], &temperatures, evaluations)?
+                    .into()
             } else {
                 let offers: Result<Vec<_>, _> = rest[..count]
                     .iter()
-                    .map(|interval| self.offers_at_equilibrium(cases, interval, driven))
+                    .map(|interval| self.offers_at_equilibrium(cases, interval, evaluations))
                     .collect();
                 offers?.into()
             };
@@ -286,7 +287,7 @@ impl<'a> Chooser<'a> {
         &self,
         cases: &mut Cases<'_>,
         interval: &Interval,
-        driven: &mut Driven,
+        evaluations: &mut usize,
     ) -> Result<Vec<Offer>, Vec<Diagnostic>> {
         let mut offers = Vec::new();
         for candidate in &self.candidates {
@@ -298,7 +299,7 @@ impl<'a> Chooser<'a> {
                 offers.push(NO_SOLUTION);
                 continue;
             };
-            driven.evaluations += warm.evaluations();
+            *evaluations += warm.evaluations();
             let temperatures = warm.temperatures().to_vec();
             let one = Self {
                 choosing: self.choosing,
@@ -311,7 +312,7 @@ impl<'a> Chooser<'a> {
                 ahead: VecDeque::new(),
                 passed: 0,
             };
-            let found = one.offers(cases, std::slice::from_ref(interval), &|_| &temperatures, driven)?;
+            let found = one.offers(cases, std::slice::from_ref(interval), &|_| &temperatures, evaluations)?;
             offers.push(found[0][0]);
         }
         Ok(offers)
@@ -323,7 +324,7 @@ impl<'a> Chooser<'a> {
         cases: &mut Cases<'_>,
         intervals: &[Interval],
         temperatures: &dyn Fn(usize) -> &'t [f64],
-        driven: &mut Driven,
+        evaluations: &mut usize,
     ) -> Result<Vec<Vec<Offer>>, Vec<Diagnostic>> {
         let mut all: Vec<Vec<Offer>> = vec![Vec::with_capacity(self.candidates.len()); intervals.len()];
         for candidate in &self.candidates {
@@ -337,8 +338,8 @@ impl<'a> Chooser<'a> {
                 }
             }
             let mut found = self.evaluate(cases, intervals, &asked, temperatures);
-            driven.evaluations += asked.len();
-            self.limit(cases, intervals, (&asked, &mut found), temperatures, driven)?;
+            *evaluations += asked.len();
+            self.limit(cases, intervals, (&asked, &mut found), temperatures, evaluations)?;
             let mut found = asked.iter().map(|(i, _)| *i).zip(found).peekable();
             for (i, offers) in all.iter_mut().enumerate() {
                 let offer = match found.next_if(|(place, _)| *place == i) {
@@ -367,7 +368,7 @@ impl<'a> Chooser<'a> {
         intervals: &[Interval],
         (asked, found): (&[(usize, Asked)], &mut [Option<Evaluated>]),
         temperatures: &dyn Fn(usize) -> &'t [f64],
-        driven: &mut Driven,
+        evaluations: &mut usize,
     ) -> Result<(), Vec<Diagnostic>> {
         let Some(vehicle) = cases.ride.vehicle else {
             return Ok(());
@@ -393,7 +394,7 @@ impl<'a> Chooser<'a> {
                 ));
             }
         }
-        driven.evaluations += limited.len();
+        *evaluations += limited.len();
         for (k, again) in places.into_iter().zip(self.evaluate(cases, intervals, &limited, temperatures)) {
             found[k] = again;
         }
@@ -473,29 +474,16 @@ impl<'a> Chooser<'a> {
         let over = |x: f64, most: Option<f64>| most.map_or(0.0, |most| x.abs() / most - 1.0);
         let mut excess = over(w, choice.most_speed).max(over(m, choice.most_torque)).max(0.0);
         let mut drawn = w * m;
-        if let Some(map) = self.choosing.machine {
-            let oil = t.network().map_or(0, Network::oil);
-            let oil = temperatures
-                .get(oil)
-                .or(temperatures.first())
-                .copied()
-                .unwrap_or(f64::NAN);
-            drawn += map.loss(w, m, oil).loss;
-            excess = excess.max(map.excess(w, m));
-        }
-        if let Some(network) = t
-            .network()
-            .filter(|network| network.names().len() == temperatures.len())
-        {
-            for motor in 0..network.motors().len() {
-                let (member, [_, stator]) = network.motor_nodes(motor);
-                let (w, m) = (speed(member), torque(member));
-                drawn += network
-                    .motor_loss(motor, w, m, temperatures[stator])
-                    .iter()
-                    .sum::<f64>();
-                excess = excess.max(network.motor_excess(motor, w, m));
+        let in_network = temperatures.len() > 1;
+        for machine in t.active_machines(in_network).chain(self.choosing.machine) {
+            let is_stated = self.choosing.machine.is_some_and(|stated| std::ptr::eq(stated, machine));
+            let member = if is_stated { reference } else { machine.member };
+            let state = t.machine_at(machine, speed(member), torque(member), temperatures);
+            drawn += state.machine + state.inverter;
+            if member != reference {
+                drawn += state.shaft();
             }
+            excess = excess.max(beyond(machine, state.speed, state.torque));
         }
         Evaluated {
             torque: m,
@@ -527,13 +515,17 @@ fn settled(gear: usize) -> Pick {
     }
 }
 
+/// How far a speed \[rad/s\] and a torque \[Nm\] are beyond the map and the envelope of a machine, relative to their borders.
+fn beyond(machine: &Machine, speed: f64, torque: f64) -> f64 {
+    let map = machine.map().map_or(0.0, |map| map.excess(speed, torque));
+    let envelope = machine.envelope();
+    map.max(envelope.map_or(0.0, |envelope| torque.abs() / envelope.most(speed) - 1.0))
+}
+
 /// Whether gears are compared by the power of machines; otherwise by the loss of the gearbox.
 pub fn has_machine(t: &Transmission, ride: &Ride<'_>) -> bool {
-    let in_network = || {
-        let network = t.network().filter(|_| ride.oil == OilTemperature::Network);
-        network.is_some_and(|network| network.motors().len() > 0)
-    };
-    ride.choice.is_some_and(|choosing| choosing.machine.is_some()) || in_network()
+    let in_gearbox = || t.active_machines(ride.oil == OilTemperature::Network).next().is_some();
+    ride.choice.is_some_and(|choosing| choosing.machine.is_some()) || in_gearbox()
 }
 
 /// Refuses demands that already contain a gear.
@@ -665,11 +657,11 @@ pub(super) fn drive_optimum(
     // Without a network every interval has its own temperature.
     let has_network = t.network().is_some() && ride.oil == OilTemperature::Network;
     let at = |i: usize| starts[if has_network { i } else { i + 1 }];
-    let mut counted = by_rule.clone();
+    let mut evaluations = by_rule.evaluations;
     let mut offers = Vec::with_capacity(ride.intervals.len());
     for first in (0..ride.intervals.len()).step_by(LANES) {
         let some = &ride.intervals[first..ride.intervals.len().min(first + LANES)];
-        offers.extend(chooser.offers(&mut cases, some, &|i| at(first + i), &mut counted)?);
+        offers.extend(chooser.offers(&mut cases, some, &|i| at(first + i), &mut evaluations)?);
     }
     let durations: Vec<f64> = ride.intervals.iter().map(|interval| interval.duration).collect();
     let has_machine = has_machine(t, ride);
@@ -690,7 +682,6 @@ pub(super) fn drive_optimum(
             .filter(|stretch| stretch.shift.is_some())
             .count(),
     };
-    let evaluations = counted.evaluations;
     chooser.given = Some(best);
     let driven = drive_through(t, ride, chooser.given, &|_| progress(0))?;
     Ok(driven.map(|driven| Driven {
@@ -706,4 +697,52 @@ impl Chooser<'_> {
         self.given = given;
         self
     }
+}
+
+/// What the intervals of a ride draw in the gears of its choice at given temperatures of the oil; with several gears, in the first one.
+///
+/// # Errors
+/// If no gear can be chosen, or a temperature is not given.
+pub fn offers_of(t: &Transmission, ride: &Ride<'_>) -> Result<Vec<Offer>, Vec<Diagnostic>> {
+    let mut cases = Cases::new(t, ride)?;
+    let Some(chooser) = Chooser::new(&mut cases)? else {
+        return Ok(Vec::new());
+    };
+    let mut all = Vec::with_capacity(ride.intervals.len());
+    let mut evaluations = 0;
+    for some in ride.intervals.chunks(LANES) {
+        let oil = |interval: &Interval| interval.given.oil_temperature.or(ride.oil.given()).unwrap_or(f64::NAN);
+        let oils: Vec<[f64; 1]> = some.iter().map(|interval| [oil(interval)]).collect();
+        let offers = chooser.offers(&mut cases, some, &|i| oils[i].as_slice(), &mut evaluations)?;
+        all.extend(offers.into_iter().map(|offers| offers[0]));
+    }
+    Ok(all)
+}
+
+/// Torque of the wheels that tows a gearbox whose input stands, against the rotation, at speeds of the wheels (rad/s) and temperatures of the oil
+/// (degC). \[Nm\]
+///
+/// # Errors
+/// If the gear state does not separate the wheels from the input.
+pub fn tow_torques(t: &Transmission, state: &str, points: &[(f64, f64)]) -> Result<Vec<f64>, Vec<Diagnostic>> {
+    let port = wheels(t).map_err(|error| vec![error])?;
+    let name = |port: usize| t.ports()[port].name.as_str();
+    let case = t.case(state, &[name(port), name(t.reference_port())], &[])?;
+    let mut scratch = t.scratch(&case);
+    let mut tow = |(speed, oil): &(f64, f64)| {
+        if *speed == 0.0 {
+            return Ok(0.0);
+        }
+        let point = Point {
+            speeds: &[*speed, 0.0],
+            ..Point::default()
+        };
+        t.try_point(&case, &point, &[*oil], &mut scratch, Noting::Counted)
+            .map_err(|_| {
+                let message = format!("the towed gearbox has no losses at {} rad/s", speed);
+                vec![Diagnostic::error("gear_states", message).help("examine the point with `explain`")]
+            })?;
+        Ok(scratch.port_torque(t.ports()[port].member) * speed.signum())
+    };
+    points.iter().map(&mut tow).collect()
 }
