@@ -572,7 +572,7 @@ pub(crate) mod tests {
         use gearloss_framework::contact::sharing::modification::{FlankModification, Relief, ReliefShape};
         use gearloss_framework::loss::{NoteBase, Notebook};
         use gearloss_framework::mechanism::{Inputs as _, Mechanism as _};
-        use gearloss_framework::real::LANES;
+        use gearloss_framework::real::{Dual, LANES};
         let registry = Registry::linked().unwrap();
         let files = Files::default();
         let flank = FlankModification {
@@ -611,6 +611,26 @@ pub(crate) mod tests {
                     let alone = slot.loss(at).unwrap();
                     assert_eq!(together.at_point(i), alone, "{kind:?} {i}");
                     assert!(alone.sum().is_finite() && (alone.sum() == 0.0) == (i == 0));
+                    if i == 0 {
+                        continue;
+                    }
+                    let at_torque = |torque: f64| at.with(|to| to.torque = torque);
+                    let (here, step) = (at.torque, 1e-4 * at.torque);
+                    let notes = Notebook::CLOSED.notes(NoteBase::default());
+                    let dual = GearMeshAt::gather(&part, notes, |quantity| Dual {
+                        value: quantity(at),
+                        slopes: std::array::from_fn(|_| quantity(&at_torque(here + 1.0)) - quantity(at)),
+                    });
+                    let exact = GearMesh::answer_with_derivatives(&*slot, &dual).unwrap().unwrap().sum();
+                    let [less, more] =
+                        [here - step, here + step].map(|torque| slot.loss(&at_torque(torque)).unwrap().sum());
+                    let difference = (more - less) / (2.0 * step);
+                    assert_eq!(exact.value, alone.sum());
+                    assert!(
+                        (exact.slopes[0] / difference - 1.0).abs() < 1e-4,
+                        "{kind:?} {i}: {} {difference}",
+                        exact.slopes[0]
+                    );
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gearloss_framework::contact::sharing::modification::FlankModification;
 use gearloss_framework::contact::sharing::stiffness::StiffnessLaw;
 use gearloss_framework::contact::sharing::{CalculatedSharing, SharingEntry, SlicesSharing};
 use gearloss_framework::evaluate::{Point, PowerFlow};
@@ -127,6 +128,6 @@ fn sharing(
         load_sharing: written.as_str().or_else(|| written["type"].as_str())?.to_owned(),
         loss_w: loss(model)?,
         sliced_loss_w: if is_sliced { None } else { Some(loss(&other)?) },
-        unmodified: part.misalignment == 0.0 && part.flanks.iter().all(|flank| *flank == Default::default()),
+        unmodified: part.misalignment == 0.0 && part.flanks.iter().all(|flank| *flank == FlankModification::default()),
     })
 }
