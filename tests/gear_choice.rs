@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use crate::common::study::{Ran, number, run_texts};
 use crate::common::{file, language, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow};
+use gearloss_framework::machine::Machine;
 use gearloss_framework::motor::MotorMap;
 use gearloss_framework::thermal::network::{Scheme, StepSize};
 use gearloss_framework::transmission::Transmission;
@@ -56,7 +57,7 @@ fn driven(
     t: &Transmission,
     (vehicle, intervals): (&Vehicle, &[Interval]),
     gear: &str,
-    choice: Option<(&GearChoice, Option<&MotorMap>)>,
+    choice: Option<(&GearChoice, Option<&Machine>)>,
 ) -> Driven {
     let ride = Ride {
         intervals,
@@ -85,9 +86,9 @@ fn shifts(driven: &Driven) -> usize {
         .count()
 }
 
-fn machine() -> MotorMap {
+fn machine() -> Machine {
     let bytes = std::fs::read(file("examples/two-speed-ev/machine.csv")).unwrap();
-    MotorMap::read(&bytes).unwrap()
+    Machine::of_map("machine", (0, 0), MotorMap::read(&bytes).unwrap())
 }
 
 /// At a given temperature the momentary best gear draws what the better of two whole runs draws, second by second, to the bit.

@@ -9,7 +9,6 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{Noting, Point};
 use gearloss_framework::machine::Machine;
 use gearloss_framework::real::LANES;
-use gearloss_framework::thermal::network::Network;
 use gearloss_framework::transmission::Transmission;
 use serde::{Deserialize, Serialize};
 
