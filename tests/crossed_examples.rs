@@ -80,8 +80,9 @@ fn the_lift_holds_its_load_at_low_speed_only() {
             );
         });
         // Braked at the worm, the load moves it or not at all.
-        let status = at(&t, ("input", -5.0), ("input", rpm), 70.0, |solved| solved.status());
-        assert_eq!(status == Status::SelfLocking, rpm <= 50.0, "{rpm}: {status:?}");
+        at(&t, ("input", -5.0), ("input", rpm), 70.0, |solved| {
+            assert_eq!(solved.status() == Status::SelfLocking, rpm <= 50.0, "{rpm}");
+        });
     }
 }
 

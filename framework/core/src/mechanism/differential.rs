@@ -204,7 +204,7 @@ context! {
     }
 }
 
-impl<'a, R: Real> DifferentialAt<'a, R> {
+impl<R: Real> DifferentialAt<'_, R> {
     /// The inputs of a model of the mesh of a pinion with a side gear: torque on the pinion, speed of the pinion in the case, and whether the pinion
     /// drives.
     #[inline(always)]

@@ -100,10 +100,8 @@ fn pair<'a>(map: &Map<'a>, stage: &'a Component, kinds: &[&str]) -> Option<[Plac
             );
             return None;
         };
-        if map.poses.get(member).is_none() {
-            // Reported with the shafts.
-            return None;
-        }
+        // A shaft without a position was reported.
+        map.poses.get(member)?;
         let z = source.needed(gear, "number_of_teeth", Quantity::Number);
         placed.push(Placed {
             gear,
@@ -438,6 +436,41 @@ const MATERIALS: &[(&[&str], &str)] = &[
     (&["GJL", "GG25", "GG-25"], "en_gjl250"),
 ];
 
+/// The material of a worm wheel; a placeholder if its friction is not known.
+fn material(map: &Map<'_>, wheel: &Placed<'_>, stage: &str, found: &mut Crossed) -> &'static str {
+    let source = map.source;
+    let name = map.referenced(wheel.gear.id, "material").map(|material| {
+        source
+            .text(material, "material_designation")
+            .map_or_else(|| material.name.clone(), str::to_owned)
+    });
+    let known = name.as_ref().and_then(|name| {
+        let name = name.to_ascii_uppercase();
+        let known = MATERIALS
+            .iter()
+            .find(|(words, _)| words.iter().any(|word| name.contains(word)));
+        Some(known?.1)
+    });
+    known.unwrap_or_else(|| {
+        let stated = name.map_or_else(
+            || "states no material of the wheel".to_owned(),
+            |name| {
+                let name = one_line(&name, 40);
+                format!("has a wheel of {name}, with which worm friction is not known")
+            },
+        );
+        found.assumed.push((
+            vec![format!("worm_meshes.{stage}")],
+            format!("placeholder: the REXS file {stated}"),
+        ));
+        source.missing(format!(
+            "the material of {} for its friction: the file {stated}; tin bronze stands in as `material`",
+            wheel.gear.label()
+        ));
+        "cusn12"
+    })
+}
+
 fn worm(map: &Map<'_>, stage: &Component, [worm, wheel]: [Placed<'_>; 2], found: &mut Crossed) {
     let source = map.source;
     let length = |of: &Component, id: &str| source.positive(of, id, Quantity::Length);
@@ -469,42 +502,8 @@ fn worm(map: &Map<'_>, stage: &Component, [worm, wheel]: [Placed<'_>; 2], found:
             worm.gear.label()
         )),
     }
-    let material = map.referenced(wheel.gear.id, "material").map(|material| {
-        source
-            .text(material, "material_designation")
-            .map_or_else(|| material.name.clone(), str::to_owned)
-    });
-    let known = material.as_ref().and_then(|name| {
-        let name = name.to_ascii_uppercase();
-        let known = MATERIALS
-            .iter()
-            .find(|(words, _)| words.iter().any(|word| name.contains(word)));
-        Some(known?.1)
-    });
     let id_of_stage = id("stage", stage.id);
-    match known {
-        Some(material) => keys.push(("material", material.to_owned())),
-        None => {
-            let stated = material.map_or_else(
-                || "states no material of the wheel".to_owned(),
-                |name| {
-                    format!(
-                        "has a wheel of {}, with which worm friction is not known",
-                        one_line(&name, 40)
-                    )
-                },
-            );
-            found.assumed.push((
-                vec![format!("worm_meshes.{id_of_stage}")],
-                format!("placeholder: the REXS file {stated}"),
-            ));
-            source.missing(format!(
-                "the material of {} for its friction: the file {stated}; tin bronze stands in as `material`",
-                wheel.gear.label()
-            ));
-            keys.push(("material", "cusn12".to_owned()));
-        }
-    }
+    keys.push(("material", material(map, &wheel, &id_of_stage, found).to_owned()));
     match source.word(stage, "lubrication_type_din_3996_2019").as_deref() {
         Some("injection_lubrication") => keys.push(("lubrication", "spray".to_owned())),
         Some("dip_lubrication") => keys.push(("lubrication", "bath".to_owned())),

@@ -315,7 +315,9 @@ impl Page<'_> {
                 self.marks(member, solid, place);
                 self.canvas.close();
                 self.canvas.avoid(room);
-                if !self.from_end(solid.axis) && !things.ports.iter().any(|port| port.1 == member && port.0 == *name) {
+                if !self.is_seen_from_end(solid.axis)
+                    && !things.ports.iter().any(|port| port.1 == member && port.0 == *name)
+                {
                     self.canvas.word(name.clone(), room, None, Voice::Quiet);
                 }
             }
@@ -346,7 +348,7 @@ impl Page<'_> {
                 }
                 self.canvas.close();
                 self.canvas.avoid(room);
-                if !self.from_end(solid.axis) {
+                if !self.is_seen_from_end(solid.axis) {
                     self.canvas
                         .word(draw::label(&own.id, own.count), room, None, Voice::Plain);
                 }
@@ -355,14 +357,14 @@ impl Page<'_> {
     }
 
     /// True if an axis is seen from its end: what is on it lies behind each other, and its names are in the other view.
-    fn from_end(&self, axis: &Axis) -> bool {
+    fn is_seen_from_end(&self, axis: &Axis) -> bool {
         let direction = axis.direction();
         direction[self.view.right].hypot(direction[self.view.up]) < FROM_END
     }
 
     /// Double lines across a shaft where it is shortened.
     fn marks(&mut self, member: usize, solid: &Solid<'_>, place: &dyn Fn([f64; 3]) -> [f64; 2]) {
-        if self.from_end(solid.axis) {
+        if self.is_seen_from_end(solid.axis) {
             return;
         }
         let direction = solid.axis.direction();

@@ -24,8 +24,9 @@ pub struct Layout {
 /// A distance of axes, which determines their places.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Distance {
-    /// Section of the mesh in whose group it is shown, and the mesh.
+    /// Section of the mesh in whose group it is shown.
     pub section: &'static str,
+    /// The mesh.
     pub mesh: &'static str,
     /// Key of the mesh under which it is shown: a centre distance or an offset.
     pub key: &'static str,
