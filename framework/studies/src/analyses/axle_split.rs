@@ -223,7 +223,7 @@ impl UnitEntry {
     }
 }
 
-impl<'a> Unit<'a> {
+impl Unit<'_> {
     /// What the unit draws in intervals that state the torque of its own wheels.
     fn offers(&self, duties: &Duties<'_>, read: &Read, intervals: &[Interval]) -> Result<Vec<Offer>, Stopped> {
         let t = &self.built.transmission;
@@ -264,13 +264,11 @@ impl<'a> Unit<'a> {
 impl AxleSplitEntry {
     /// Shares of the front axle that are compared.
     fn shares(&self) -> Vec<f64> {
-        match self.split {
-            Some(share) => vec![share],
-            None => {
-                let count = (1.0 / self.share_step).round().max(1.0) as usize;
-                (0..=count).map(|i| i as f64 / count as f64).collect()
-            }
+        if let Some(share) = self.split {
+            return vec![share];
         }
+        let count = (1.0 / self.share_step).round().max(1.0) as usize;
+        (0..=count).map(|i| i as f64 / count as f64).collect()
     }
 
     /// One cycle with both units.
