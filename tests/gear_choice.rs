@@ -113,7 +113,7 @@ fn the_best_gear_is_that_of_brute_force_at_a_given_temperature() {
             match machine {
                 Some(map) => {
                     let power = stretch.torque * stretch.speed;
-                    power + map.loss(stretch.speed, stretch.torque, stretch.temperatures[0]).loss
+                    power + map.loss(stretch.speed, stretch.torque, stretch.temperatures[0]).sum()
                 }
                 None => stretch.heats.parts.iter().sum::<f64>() / stretch.heats.duration,
             }
@@ -123,7 +123,8 @@ fn the_best_gear_is_that_of_brute_force_at_a_given_temperature() {
             // Gears beyond the border of the machine's map are left out.
             let excess = |run: &Driven| {
                 let stretch = &run.stretches[i];
-                machine.map_or(0.0, |map| map.excess(stretch.speed, stretch.torque))
+                let map = machine.and_then(Machine::map);
+                map.map_or(0.0, |map| map.excess(stretch.speed, stretch.torque))
             };
             let smallest = excess(&both[0]).min(excess(&both[1]));
             let allowed = both.iter().filter(|run| excess(run) <= smallest);
@@ -231,7 +232,7 @@ fn the_optimum_is_never_worse_than_the_rule_and_states_the_gap() {
         let (by_rule, best) = (run(ChosenBy::Rule(hysteresis)), run(ChosenBy::Optimum(hysteresis)));
         let total = |driven: &Driven| -> f64 {
             let of = |s: &gearloss_studies::points::Stretch| {
-                let power = s.torque * s.speed + map.loss(s.speed, s.torque, s.temperatures[0]).loss;
+                let power = s.torque * s.speed + map.loss(s.speed, s.torque, s.temperatures[0]).sum();
                 power * s.heats.duration + s.shift.map_or(0.0, |shift| shift.heat - shift.released)
             };
             driven.stretches.iter().map(of).sum()

@@ -146,7 +146,7 @@ fn consumption_text(duty: &DutyOfSet, consumption: &Consumption, page: &mut Page
     let shifts = consumption.shifts_kwh_per_100_km;
     let shifts = shifts.map_or_else(String::new, |shifts| format!(", shifts {}", short(shifts)));
     page.line(format!(
-        "  of it in kWh/100 km: vehicle {}, transmission {}, machine {}{}, brakes {}, auxiliaries {}, battery {}; system efficiency {}, \
+        "  of it in kWh/100 km: vehicle {}, transmission {}, machine {}{}, brakes {}, auxiliaries {}, battery {}{shifts}; system efficiency {}, \
          recuperated {} of the braking energy",
         short(consumption.wheels_kwh_per_100_km),
         short(consumption.transmission_kwh_per_100_km),
@@ -154,7 +154,7 @@ fn consumption_text(duty: &DutyOfSet, consumption: &Consumption, page: &mut Page
         inverter,
         short(consumption.brakes_kwh_per_100_km),
         short(consumption.auxiliaries_kwh_per_100_km),
-        format!("{}{shifts}", short(consumption.battery_kwh_per_100_km)),
+        short(consumption.battery_kwh_per_100_km),
         share(consumption.system_efficiency),
         share(consumption.recuperated_share)
     ));

@@ -229,7 +229,7 @@ impl UnitEntry {
     }
 }
 
-impl<'a> Unit<'a> {
+impl Unit<'_> {
     /// The machine that is stated for it; `None` if the gearbox has one.
     fn machine<'m>(&'m self, duties: &'m Duties<'_>) -> Option<&'m Machine> {
         let has_own = self.built.transmission.active_machines(false).next().is_some();
@@ -276,13 +276,11 @@ impl<'a> Unit<'a> {
 impl AxleSplitEntry {
     /// Shares of the front axle that are compared.
     fn shares(&self) -> Vec<f64> {
-        match self.split {
-            Some(share) => vec![share],
-            None => {
-                let count = (1.0 / self.share_step).round().max(1.0) as usize;
-                (0..=count).map(|i| i as f64 / count as f64).collect()
-            }
+        if let Some(share) = self.split {
+            return vec![share];
         }
+        let count = (1.0 / self.share_step).round().max(1.0) as usize;
+        (0..=count).map(|i| i as f64 / count as f64).collect()
     }
 
     /// One cycle with both units.

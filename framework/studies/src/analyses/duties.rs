@@ -328,8 +328,7 @@ impl<'a> Duties<'a> {
             return Err(cx.wrong_as(codes::DUTY, &read.place, message, help));
         }
         if let Some(choice) = &self.choice {
-            let names: Vec<&str> = b.transmission.states().iter().map(|s| s.name.as_str()).collect();
-            check_gears(cx, choice, &names)?;
+            check_gears(cx, choice, &b.transmission)?;
         }
         for read in &self.list {
             can_drive(&b.transmission, &self.ride(&b.transmission, read)).map_err(|list| unfit(cx, read, list))?;

@@ -1,6 +1,7 @@
 //! How the gears of cycles are chosen: read from a study, with its files.
 
 use gearloss_framework::document::Diagnostic;
+use gearloss_framework::transmission::Transmission;
 
 use super::{Planner, Stopped};
 use crate::codes;
@@ -128,10 +129,11 @@ fn shift_map(
 }
 
 /// Refuses a map of gears that the gearbox does not have.
-pub fn check_gears(cx: &Planner<'_>, choice: &GearChoice, names: &[&str]) -> Result<(), Stopped> {
+pub fn check_gears(cx: &Planner<'_>, choice: &GearChoice, t: &Transmission) -> Result<(), Stopped> {
     let ChosenBy::Map(map) = &choice.by else {
         return Ok(());
     };
+    let names: Vec<&str> = t.states().iter().map(|state| state.name.as_str()).collect();
     let unknown = map.gears().iter().find(|(gear, _)| !names.contains(&gear.as_str()));
     let Some((gear, line)) = unknown else {
         return Ok(());

@@ -151,7 +151,7 @@ fn words(ride: &Ride<'_>) -> String {
     };
     let choice = choosing.choice;
     let mut words = match &choice.by {
-        ChosenBy::Rule(_) if ride.spectrum => "the best gear of each load".to_owned(),
+        ChosenBy::Rule(_) | ChosenBy::Optimum(_) if ride.spectrum => "the best gear of each load".to_owned(),
         ChosenBy::Rule(rule) => {
             let mut words = "the best gear of the moment".to_owned();
             if rule.saving > 0.0 {
@@ -162,7 +162,6 @@ fn words(ride: &Ride<'_>) -> String {
             }
             words
         }
-        ChosenBy::Optimum(_) if ride.spectrum => "the best gear of each load".to_owned(),
         ChosenBy::Optimum(_) => "the sequence of gears with the least energy over the cycle".to_owned(),
         ChosenBy::Map(_) => "by a map over speed and torque of the wheels".to_owned(),
     };

@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 use super::{Asked, At, Cases, Driven, Ride, around, ask, drive_through, point_of, steady_temperatures, wheels};
 use crate::codes;
 use crate::duty::{Demand, Interval, ShiftMap, Vehicle};
-use crate::points::OilTemperature;
 use crate::points::gear_rule::{Offer, Pick, Rule, Shifting, energy, least_energy};
+use crate::points::{Found, OilTemperature};
 
 /// How the gears of a cycle are chosen.
 #[derive(Debug, Clone)]
@@ -294,7 +294,7 @@ impl<'a> Chooser<'a> {
             let around = around(cases.ride, Some(interval));
             let asked = ask(cases, interval, &around, name)?;
             let warm = steady_temperatures(cases, interval, &asked, &around);
-            let Some(warm) = warm.ok().filter(|warm| warm.is_sound()) else {
+            let Some(warm) = warm.ok().filter(Found::is_sound) else {
                 offers.push(NO_SOLUTION);
                 continue;
             };
@@ -343,7 +343,7 @@ impl<'a> Chooser<'a> {
             for (i, offers) in all.iter_mut().enumerate() {
                 let offer = match found.next_if(|(place, _)| *place == i) {
                     Some((_, Some(found))) => Offer {
-                        power: if self.has_machine(cases) {
+                        power: if has_machine(cases.transmission, cases.ride) {
                             found.drawn
                         } else {
                             found.loss
@@ -490,10 +490,6 @@ impl<'a> Chooser<'a> {
             drawn,
             excess,
         }
-    }
-
-    fn has_machine(&self, cases: &Cases<'_>) -> bool {
-        has_machine(cases.transmission, cases.ride)
     }
 }
 
@@ -738,7 +734,7 @@ pub fn tow_torques(t: &Transmission, state: &str, points: &[(f64, f64)]) -> Resu
         };
         t.try_point(&case, &point, &[*oil], &mut scratch, Noting::Counted)
             .map_err(|_| {
-                let message = format!("the towed gearbox has no losses at {} rad/s", speed);
+                let message = format!("the towed gearbox has no losses at {speed} rad/s");
                 vec![Diagnostic::error("gear_states", message).help("examine the point with `explain`")]
             })?;
         Ok(scratch.port_torque(t.ports()[port].member) * speed.signum())
