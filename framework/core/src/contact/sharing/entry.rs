@@ -55,6 +55,7 @@ pub enum CalculatedSharing {
 
 /// Options of the calculation in thin slices.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(inline)]
 pub struct SlicesSharing {
     /// Law of the stiffness of one pair of teeth.
     #[serde(default)]

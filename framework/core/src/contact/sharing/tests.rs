@@ -563,3 +563,16 @@ fn parts_of_knots_add_up_to_one() {
     ));
     assert_eq!(shares.knots().len(), 7);
 }
+
+/// The keys of a type are beside it, not in a record of their own that would exclude it.
+#[test]
+fn the_schema_has_the_keys_of_slices_beside_the_type() {
+    let schema = serde_json::to_value(schemars::schema_for!(CalculatedSharing)).unwrap();
+    let variants = schema["oneOf"].as_array().unwrap();
+    let of = |variant: &&serde_json::Value| variant["properties"]["type"]["const"] == "slices";
+    let slices = variants.iter().find(of).unwrap();
+    assert!(
+        slices.get("$ref").is_none() && slices["properties"]["phases"].is_object(),
+        "{slices:#}"
+    );
+}
