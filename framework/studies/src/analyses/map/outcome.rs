@@ -7,8 +7,8 @@ use serde_json::Value;
 
 use super::super::numbers::word;
 use super::super::{Head, Outcome};
-use super::entry::MapOf;
 use super::export::{ExportData, ExportName};
+use super::map_of::MapOf;
 use super::points::MapPoints;
 use super::shown::ShownMap;
 use crate::analyses::limits::at_points::LimitColumn;
