@@ -5,6 +5,7 @@ mod best;
 mod entry;
 pub mod export;
 mod exported;
+mod map_of;
 mod outcome;
 mod plan;
 mod points;
@@ -21,8 +22,9 @@ use serde_json::Value;
 
 pub use axes::Axes;
 pub use best::{BestGears, PointsInGear};
-pub use entry::{MapEntry, MapOf};
+pub use entry::MapEntry;
 pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, Refusal};
+pub use map_of::MapOf;
 pub use outcome::{MapOfSet, MapOutcome, Mark, NotesOfSet, PartModel, SumMeaning};
 pub use points::MapPoints;
 pub use shown::{LossAt, LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint};

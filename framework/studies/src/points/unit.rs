@@ -140,6 +140,7 @@ impl UnitPoint {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn state(torque: f64, machine: f64, inverter: f64) -> MachineState {

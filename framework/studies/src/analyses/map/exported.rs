@@ -3,8 +3,8 @@
 use super::super::units::speed_ratio;
 use super::super::{Engine, Planner, Stopped};
 use super::Map;
-use super::entry::MapOf;
 use super::export::{ExportData, ExportName, Refusal};
+use super::map_of::MapOf;
 use super::plan::Planned;
 use super::shown::{LossAt, LossGrid};
 use crate::codes;

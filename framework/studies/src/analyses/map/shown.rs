@@ -2,7 +2,7 @@
 
 use super::super::numbers::spread_over;
 use super::axes::Axes;
-use super::entry::MapOf;
+use super::map_of::MapOf;
 use crate::points::{Field, Numbered, PointResult};
 
 /// Grids with more points are shown by a selection of their rows and columns.
