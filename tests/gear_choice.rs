@@ -184,7 +184,7 @@ fn the_best_gear_is_that_of_brute_force_at_the_temperatures_of_a_network() {
             };
             t.evaluate(&cases[gear], &point, before, &mut scratch).loss().unwrap()
         });
-        let least = if losses[1] < losses[0] { 1 } else { 0 };
+        let least = usize::from(losses[1] < losses[0]);
         assert_eq!(best.stretches[i].gear, least, "interval {i}: {losses:?}");
         compared += 1;
     }

@@ -366,16 +366,16 @@ impl CorrectionFrom {
                 let message = format!("it has corrections of several model sets: {}", names.join(", "));
                 return Err(self.wrong(message, "name one of them: `model_set`"));
             }
-            (Some(set), _) => match with.iter().find(|(name, _)| name == set) {
-                Some((_, correction)) => *correction,
-                None => {
+            (Some(set), _) => {
+                let Some((_, correction)) = with.iter().find(|(name, _)| name == set) else {
                     let help = match did_you_mean(set, names.iter().copied()) {
                         Some(near) => format!("write `{near}`"),
                         None => format!("there are {}", names.join(", ")),
                     };
                     return Err(self.wrong(format!("it has no correction of the model set `{set}`"), &help));
-                }
-            },
+                };
+                *correction
+            }
         };
         let records: Vec<Correction> = serde_json::from_value(chosen.clone())
             .map_err(|e| self.wrong(format!("its correction cannot be read: {e}"), AGAIN))?;

@@ -194,21 +194,7 @@ impl Sump {
 
     /// The level of a volume. \[m3, m\]
     pub(crate) fn level<R: Points>(&self, volume: R) -> R {
-        self.level_in(|_| (&*self.space).into(), volume)
-    }
-
-    /// The level of a volume in a space of each point. \[m3, m\]
-    fn level_in<'a, R: Points>(&'a self, space: impl Fn(usize) -> AnySpace<'a>, volume: R) -> R {
-        let level = R::each(|point| space(point).level(volume.at_point(point)));
-        let below = R::each(|point| space(point).volume(level.at_point(point))[0]);
-        let area = R::each(|point| space(point).volume(level.at_point(point))[1].max(0.0));
-        // One step of Newton's gives derivatives, where numbers have them.
-        let full = area.is_zero();
-        R::select(
-            full,
-            level,
-            level - (below - volume) / R::select(full, R::constant(1.0), area),
-        )
+        level_in(|_| (&*self.space).into(), volume)
     }
 
     /// What each gear lifts by its churning loss.
@@ -264,7 +250,7 @@ impl Sump {
         let lowered = if none.all() {
             rest
         } else {
-            R::select(none, rest, self.level_in(space, left))
+            R::select(none, rest, level_in(space, left))
         };
         Running {
             space,
@@ -314,4 +300,18 @@ impl<R: Points> State<'_, R> {
     pub(crate) fn level_at_rest(&self, level: Level) -> Height<R> {
         level.under(self.rest, self.incline)
     }
+}
+
+/// The level of a volume in a space of each point. \[m3, m\]
+fn level_in<'a, R: Points>(space: impl Fn(usize) -> AnySpace<'a>, volume: R) -> R {
+    let level = R::each(|point| space(point).level(volume.at_point(point)));
+    let below = R::each(|point| space(point).volume(level.at_point(point))[0]);
+    let area = R::each(|point| space(point).volume(level.at_point(point))[1].max(0.0));
+    // One step of Newton's gives derivatives, where numbers have them.
+    let full = area.is_zero();
+    R::select(
+        full,
+        level,
+        level - (below - volume) / R::select(full, R::constant(1.0), area),
+    )
 }

@@ -191,7 +191,12 @@ impl UnitEntry {
         if machine.is_some() && has_own {
             let at = format!("{path}.motor_map");
             let message = "the gearbox has a machine, whose losses would be counted twice";
-            return Err(cx.wrong_as(codes::AXLE_SPLIT, &at, message, "delete it, or `machines` of the gearbox"));
+            return Err(cx.wrong_as(
+                codes::AXLE_SPLIT,
+                &at,
+                message,
+                "delete it, or `machines` of the gearbox",
+            ));
         }
         if machine.is_none() && duties.machine().is_none() && !has_own {
             let help = "write `motor_map: machine.csv` here or in the vehicle";

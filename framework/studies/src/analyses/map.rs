@@ -229,7 +229,10 @@ impl MapEntry {
                 vec![plan.run.clone()]
             } else {
                 let runs = best::chosen(engine, &plan.gears, machine)?;
-                map.gears = best::gears(&runs, machine.is_some() || engine.has_machines(&plan.run.built.transmission));
+                map.gears = Some(best::gears(
+                    &runs,
+                    machine.is_some() || engine.has_machines(&plan.run.built.transmission),
+                ));
                 runs
             };
             for run in &runs {

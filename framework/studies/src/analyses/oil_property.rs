@@ -266,7 +266,7 @@ impl Analysis for OilPropertyEntry {
         let (mut laws, mut left_out) = (Vec::new(), Vec::new());
         for (k, (law, _)) in names.into_iter().enumerate() {
             match self.judge(&plan, k, factor) {
-                Ok(at) => laws.extend(self.law(law, at)),
+                Ok(at) => laws.extend(cells(law, at)),
                 Err(reason) => left_out.push(format!("{law}: {reason}")),
             }
         }
@@ -400,43 +400,43 @@ impl OilPropertyEntry {
         };
         plan.values.iter().map(value).collect()
     }
+}
 
-    /// The cells of a law.
-    fn law(&self, name: String, at: Vec<ValueOfOil>) -> Option<LawOfProperty> {
-        let ratio = |i: &usize| Ratio {
-            ratio: at[*i].ratio,
-            band: at[*i].band,
-            in_range: true,
-        };
-        let cell = |places: &[usize]| Cell::of_ratios(&places.iter().map(ratio).collect::<Vec<_>>(), &[]);
-        let temperatures: Vec<f64> = at.iter().map(|value| value.oil_temperature_degc).collect();
-        let regime = |([from, to], places): ([f64; 2], Vec<usize>)| {
-            Some(CellOfRegime {
-                over: "oil_temperature".to_owned(),
-                unit: "degC".to_owned(),
-                from,
-                to,
-                cell: cell(&places)?,
-            })
-        };
-        let of_oil = |oil: &String| {
-            let places: Vec<usize> = (0..at.len()).filter(|i| at[*i].oil == *oil).collect();
-            Some(CellOfOil {
-                oil: oil.clone(),
-                cell: cell(&places)?,
-            })
-        };
-        Some(LawOfProperty {
-            all: cell(&(0..at.len()).collect::<Vec<_>>())?,
-            regimes: bands(&temperatures).into_iter().filter_map(regime).collect(),
-            oils: distinct(at.iter().map(|value| &value.oil))
-                .into_iter()
-                .filter_map(of_oil)
-                .collect(),
-            name,
-            at,
+/// The cells of a law.
+fn cells(name: String, at: Vec<ValueOfOil>) -> Option<LawOfProperty> {
+    let ratio = |i: &usize| Ratio {
+        ratio: at[*i].ratio,
+        band: at[*i].band,
+        in_range: true,
+    };
+    let cell = |places: &[usize]| Cell::of_ratios(&places.iter().map(ratio).collect::<Vec<_>>(), &[]);
+    let temperatures: Vec<f64> = at.iter().map(|value| value.oil_temperature_degc).collect();
+    let regime = |([from, to], places): ([f64; 2], Vec<usize>)| {
+        Some(CellOfRegime {
+            over: "oil_temperature".to_owned(),
+            unit: "degC".to_owned(),
+            from,
+            to,
+            cell: cell(&places)?,
         })
-    }
+    };
+    let of_oil = |oil: &String| {
+        let places: Vec<usize> = (0..at.len()).filter(|i| at[*i].oil == *oil).collect();
+        Some(CellOfOil {
+            oil: oil.clone(),
+            cell: cell(&places)?,
+        })
+    };
+    Some(LawOfProperty {
+        all: cell(&(0..at.len()).collect::<Vec<_>>())?,
+        regimes: bands(&temperatures).into_iter().filter_map(regime).collect(),
+        oils: distinct(at.iter().map(|value| &value.oil))
+            .into_iter()
+            .filter_map(of_oil)
+            .collect(),
+        name,
+        at,
+    })
 }
 
 /// Half-width of a 95 % band in standard deviations.

@@ -136,6 +136,7 @@ fn below(values: &[f64], x: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     fn read(text: &str) -> Result<ShiftMap, Vec<MeasuredFault>> {

@@ -108,21 +108,21 @@ pub fn chosen<'a>(engine: &Engine<'_>, runs: &[Run<'a>], machine: Option<&Machin
 }
 
 /// The gears of a map.
-pub fn gears(runs: &[Run<'_>], has_machine: bool) -> Option<BestGears> {
+pub fn gears(runs: &[Run<'_>], has_machine: bool) -> BestGears {
     let total: usize = runs.iter().map(|run| run.points.field.len()).sum();
     let of = |run: &Run<'_>| PointsInGear {
         gear: run.points.gear.clone(),
         points: run.points.field.len(),
         share: run.points.field.len() as f64 / total as f64,
     };
-    Some(BestGears {
+    BestGears {
         criterion: if has_machine {
             Criterion::MachinePower
         } else {
             Criterion::GearboxLoss
         },
         gears: runs.iter().map(of).collect(),
-    })
+    }
 }
 
 /// How far a point is outside the map of its machines, and their power, or the loss of the gearbox; infinite without a solution. The least in

@@ -3,6 +3,7 @@
 use gearloss_framework::description::LubricantEntry;
 use gearloss_framework::evaluate::Ratings;
 use gearloss_framework::lubricant::Lubricant;
+use gearloss_framework::prelude::Rated;
 use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
 use serde_json::Value;
@@ -87,7 +88,7 @@ fn least(
         .filter(|rating| judged.contains(&t.parts()[rating.part].path));
     let figures = own
         .filter_map(|rating| rating.result.as_ref().ok())
-        .flat_map(|rated| rated.figures());
+        .flat_map(Rated::figures);
     let values = figures
         .filter(|rated| rated.figure.symbol == symbol)
         .map(|rated| rated.value);

@@ -394,7 +394,10 @@ impl<'a> Chooser<'a> {
             }
         }
         *evaluations += limited.len();
-        for (k, again) in places.into_iter().zip(self.evaluate(cases, intervals, &limited, temperatures)) {
+        for (k, again) in places
+            .into_iter()
+            .zip(self.evaluate(cases, intervals, &limited, temperatures))
+        {
             found[k] = again;
         }
         Ok(())
@@ -475,7 +478,10 @@ impl<'a> Chooser<'a> {
         let mut drawn = w * m;
         let in_network = temperatures.len() > 1;
         for machine in t.active_machines(in_network).chain(self.choosing.machine) {
-            let is_stated = self.choosing.machine.is_some_and(|stated| std::ptr::eq(stated, machine));
+            let is_stated = self
+                .choosing
+                .machine
+                .is_some_and(|stated| std::ptr::eq(stated, machine));
             let member = if is_stated { reference } else { machine.member };
             let state = t.machine_at(machine, speed(member), torque(member), temperatures);
             drawn += state.machine + state.inverter;
