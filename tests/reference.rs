@@ -79,29 +79,41 @@ fn significant(x: f64) -> String {
     }
 }
 
-/// The values that an enumeration takes, with their meaning.
-fn choices(schema: &Value, field: &Value) -> String {
-    let reference = [field, &field["allOf"][0], &field["anyOf"][0], &field["oneOf"][0]]
+/// The definition to which a part of a schema refers.
+fn referred<'s>(schema: &'s Value, part: &Value) -> Option<&'s Value> {
+    let reference = [part, &part["allOf"][0], &part["anyOf"][0], &part["oneOf"][0]]
         .into_iter()
         .find_map(|f| f["$ref"].as_str());
-    let Some(name) = reference.and_then(|r| r.strip_prefix("#/definitions/")) else {
-        return String::new();
-    };
-    let values: Vec<String> = schema["definitions"][name]["oneOf"]
-        .as_array()
-        .into_iter()
-        .flatten()
+    schema["definitions"].get(reference?.strip_prefix("#/definitions/")?)
+}
+
+/// Constants with their meanings, each written after a key.
+fn meanings(of: &Value, key: &str) -> Vec<String> {
+    let choices = of["oneOf"].as_array().into_iter().flatten();
+    choices
         .filter_map(|choice| {
             let value = choice["const"].as_str()?;
             let meaning = choice["description"].as_str().unwrap_or_default();
-            Some(format!("`{value}`: {}", meaning.trim_end_matches('.')))
+            Some(format!("`{key}{value}`: {}", meaning.trim_end_matches('.')))
         })
-        .collect();
+        .collect()
+}
+
+/// The values that an enumeration takes, with their meaning; of words beside records, both.
+fn choices(schema: &Value, field: &Value) -> String {
+    let Some(definition) = referred(schema, field) else {
+        return String::new();
+    };
+    let mut values = meanings(definition, "");
+    let alternatives = definition["anyOf"].as_array().into_iter().flatten();
+    let alternatives: Vec<&Value> = alternatives.filter_map(|choice| referred(schema, choice)).collect();
+    values.extend(alternatives.iter().flat_map(|choice| meanings(choice, "")));
     if values.is_empty() {
-        String::new()
-    } else {
-        format!("{}.", values.join("; "))
+        return String::new();
     }
+    let records = alternatives.iter().map(|choice| &choice["properties"]["type"]);
+    values.extend(records.flat_map(|kind| meanings(kind, "type: ")));
+    format!("{}.", values.join("; "))
 }
 
 fn parameters(out: &mut String, language: &Language, entry: &Entry) {

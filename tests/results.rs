@@ -37,7 +37,7 @@ const OPEN: [&str; 7] = [
 ];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 31] = [
+const OPTIONAL: [&str; 30] = [
     "mesh_load",
     "of",
     "unit",
@@ -47,7 +47,6 @@ const OPTIONAL: [&str; 31] = [
     "gears_used",
     "best_gears",
     "best_gear",
-    "shifts_kwh_per_100_km",
     "crossed_stages",
     "lengthwise_sliding_m_s",
     "data",

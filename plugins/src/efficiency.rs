@@ -10,10 +10,7 @@ use gearloss_framework::{observed, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-terms! {
-    pub SLIDING = load("sliding");
-    pub STATED = load("stated");
-}
+terms! { pub SLIDING = load("sliding"); }
 observed! { pub EFFICIENCY = ("eta", "-", "efficiency"); }
 
 /// Loss from a known efficiency: a number, or a table over the quantities of the mechanism.

@@ -83,7 +83,7 @@ pub fn study_run(study: &'static str) -> &'static StudyRun {
         .entry(study)
         .or_insert_with(|| Box::leak(Box::default()));
     run.get_or_init(|| {
-        let name = Path::new(study).parent().unwrap().file_name().unwrap();
+        let name = study.trim_end_matches(".yaml").replace('/', "-");
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("results").join(name);
         std::fs::create_dir_all(folder.parent().unwrap()).unwrap();
         let lock = File::create(folder.with_extension("lock")).unwrap();

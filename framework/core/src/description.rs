@@ -13,6 +13,7 @@ pub mod network;
 pub mod oil_network;
 pub mod plausibility;
 pub mod shafts;
+pub mod shift_sign;
 pub mod states;
 
 use schemars::JsonSchema;

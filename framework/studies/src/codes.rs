@@ -67,10 +67,10 @@ gearloss_framework::document::codes! {
     CELLS = "E0607", "invalid table of cells of a corpus",
         cause: "A file under `model_error` cannot be read, lacks a column of the tables that `gearloss validate` writes, or has a cell that is no positive number.",
         help: "Run `gearloss validate --corpus FOLDER` again and give its `cells.csv`.";
-    CORRECTION = "E0610", "invalid correction",
-        cause: "An identification cannot make a correction from its rows, or a correction that another analysis reads is missing, damaged, or belongs to another gearbox or other parameters.",
-        help: "Give rows with a measured loss; run the identification again, and use the model set that it provides under `then`.";
     NOTHING_UNCERTAIN = "E0608", "bands without an uncertain input",
         cause: "An analysis for bands has no inputs, and no measured set judges a model of the gearbox.",
         help: "State `inputs`, or give the cells of own sets under `model_error`.";
+    CORRECTION = "E0610", "invalid correction",
+        cause: "An identification cannot make a correction from its rows, or a correction that another analysis reads is missing, damaged, or belongs to another gearbox or other parameters.",
+        help: "Give rows with a measured loss; run the identification again, and use the model set that it provides under `then`.";
 }

@@ -512,7 +512,7 @@ mod tests {
         let record = Correction::fit(&CorrectionEntry::default(), "one", points(|_| 80.0))
             .unwrap()
             .unwrap();
-        let text = serde_json::json!({ "identifications": [{ "model_set": "iso", "correction": [record] }, { "model_set": "skf" }] });
+        let text = serde_json::json!({ "identifications": [{ "model_set": "iso", "correction": [record] }, { "model_set": "other" }] });
         let of = |model_set: Option<&str>| CorrectionFrom {
             file: Some("fit.json".to_owned()),
             model_set: model_set.map(str::to_owned),

@@ -8,10 +8,12 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::generic::PLACE;
 use gearloss_framework::loss::{Loss, Undefined};
 use gearloss_framework::mechanism::joint::{Joint, JointAt, JointModel};
-use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Evidence, USER_DEFINED, formula};
+use gearloss_framework::{register, terms};
 
-use crate::efficiency::{EFFICIENCY, Efficiency, Params, STATED};
+use crate::efficiency::{EFFICIENCY, Efficiency, Params};
+
+terms! { STATED = load("stated"); }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Efficiency<Joint>, Diagnostic> {
     Efficiency::prepare(params, cx)

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::sharing::modification::FlankModification;
 use crate::contact::sharing::stiffness::Elastic;
-use crate::description::gears::ShiftSign;
+use crate::description::shift_sign::ShiftSign;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::loss::{Loss, Term, Undefined};
 use crate::lubricant::Lubricant;

@@ -8,7 +8,8 @@ use super::seats::{CylindricalTeeth, GearSeat, MeshSeat, Teeth};
 use crate::attach::dangling;
 use crate::codes;
 use crate::description::{
-    GearEntry, GearKind, GearboxEntry, MeshEntry, PlanetarySetEntry, gears::Hand, gears::Mounting, gears::ShiftSign,
+    GearEntry, GearKind, GearboxEntry, MeshEntry, PlanetarySetEntry, gears::Hand, gears::Mounting,
+    shift_sign::ShiftSign,
 };
 use crate::document::Diagnostic;
 use crate::geometry::{Pair, PairFault, PairSpec};

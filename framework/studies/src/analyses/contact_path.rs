@@ -92,6 +92,7 @@ pub struct ContactPath {
     /// Oil temperature. [degC]
     pub oil_temperature_degc: f64,
     /// Load sharing of the tooth pairs in contact.
+    #[schemars(with = "serde_json::Value")]
     pub load_sharing: SharingEntry,
     /// Torque of the mesh at its first gear. [Nm]
     pub mesh_torque_nm: f64,

@@ -64,7 +64,6 @@ pub struct Consumption {
     /// Energy of the auxiliaries. [kWh/100 km]
     pub auxiliaries_kwh_per_100_km: f64,
     /// Energy that shifts dissipate, with that of the actuator; absent if gears are not chosen. [kWh/100 km]
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub shifts_kwh_per_100_km: Option<f64>,
     /// Loss of the battery and of everything else that its efficiencies contain. [kWh/100 km]
     pub battery_kwh_per_100_km: f64,
