@@ -155,6 +155,7 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
         ("examples/electric-drive-unit/gearbox.yaml", &[None]),
         ("examples/electric-drive-unit/gearbox-beam.yaml", &[None]),
         ("examples/worm-drive/gearbox.yaml", &[None]),
+        ("tests/results/crossed_helical.yaml", &[None]),
         ("framework/workbench/src/form/layouts/bevel-helical.yaml", &[None]),
         (
             "framework/workbench/src/form/layouts/axle.yaml",

@@ -184,6 +184,7 @@ fn derivatives_of_meshes_on_axes_that_cross_agree_with_differences_of_solves() {
         ("framework/workbench/src/form/layouts/bevel-helical.yaml", -30.0, 1200.0),
         ("framework/workbench/src/form/layouts/axle.yaml", 150.0, 1500.0),
         ("examples/worm-drive/gearbox.yaml", 15.0, 1450.0),
+        ("tests/results/crossed_helical.yaml", 20.0, 1500.0),
     ] {
         let rig = Rig::of_file(file, Choice::default(), "", (torque, rpm), Some(75.0));
         for variable in ["torque:input", "speed:input", "oil_temperature"] {

@@ -346,13 +346,14 @@ fn the_schemas_explain_every_key() {
 }
 
 /// Units by the ends of keys.
-const UNITS: [(&str, &str); 13] = [
+const UNITS: [(&str, &str); 14] = [
     ("_w", "[W]"),
     ("_nm", "[Nm]"),
     ("_n", "[N]"),
     ("_rpm", "[rpm]"),
     ("_degc", "[degC]"),
     ("_k", "[K]"),
+    ("_n_mm", "[N/mm]"),
     ("_mm", "[mm]"),
     ("_um", "[um]"),
     ("_gpa", "[GPa]"),

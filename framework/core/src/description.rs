@@ -6,6 +6,7 @@
 pub mod bevel_teeth;
 pub mod chains;
 pub mod crossed;
+mod defaults;
 pub mod gears;
 pub mod housing;
 pub mod lubricant;

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::Ordered;
+use super::defaults::default_one;
 use crate::mechanism::ModelRef;
 use crate::mechanism::chain::{Chain, ChainKind, ChainPart};
 use crate::mechanism::joint::{Joint, JointKind};
@@ -110,8 +111,4 @@ pub struct JointEntry {
     pub loss_factor: f64,
     /// Loss model; default: that of `models`.
     pub model: Option<ModelRef<Joint>>,
-}
-
-fn default_one() -> f64 {
-    1.0
 }

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::bevel_teeth::BevelTeeth;
-use super::gears::default_one;
+use super::defaults::default_one;
 use crate::geometry::WormProfile;
 use crate::mechanism::ModelRef;
 use crate::mechanism::bevel_mesh::BevelMesh;

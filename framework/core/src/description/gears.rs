@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::defaults::default_one;
 use super::housing::WallClearance;
 use super::shafts::Unsupported;
 use super::shift_sign::ShiftSign;
@@ -79,10 +80,6 @@ pub struct GearEntry {
     pub loss_factor: f64,
     /// Drag models of this gear by name; they replace those in `models`.
     pub drag: Option<NamedSlots<GearDrag>>,
-}
-
-pub(super) fn default_one() -> f64 {
-    1.0
 }
 
 /// Hand of a helix.

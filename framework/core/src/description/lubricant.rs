@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::defaults::default_one;
+
 /// An oil with its friction properties; models use them and may override them.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct LubricantEntry {
@@ -176,10 +178,6 @@ impl Default for ViscosityEntry {
             factor: default_one(),
         }
     }
-}
-
-fn default_one() -> f64 {
-    1.0
 }
 
 /// Constant C of Vogel that is typical for mineral gear oils.
