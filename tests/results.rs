@@ -145,6 +145,7 @@ fn points() -> Vec<Value> {
         solve(["tests/results/self_locking.yaml", "--speed", "-3000 rpm"], &[]),
         solve(["tests/results/oil_network.yaml", "--speed", "3000 rpm"], &[]),
         solve(["tests/results/crossed_axes.yaml", "--speed", "1500 rpm"], &[]),
+        solve(["tests/results/window.yaml", "--speed", "3000 rpm"], &[]),
         solve(
             ["tests/trade/preloaded-bearings/gearbox.yaml", "--speed", "1500 rpm"],
             &[],
