@@ -70,6 +70,7 @@ fn a_recorded_duty_runs_from_memory() {
         "examples/two-speed-ev",
         "examples/planetary-reducer",
         "examples/electric-drive-unit",
+        "examples/drive-unit-system",
     ];
     let outcome = same_from_memory("tests/results/study.yaml", &folders, "cycle_thermal");
     assert!(!outcome.get::<CycleOutcome>().unwrap().cycles.is_empty());

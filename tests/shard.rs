@@ -164,7 +164,12 @@ fn copied(from: &Path, to: &Path) {
 #[test]
 fn three_shards_of_every_analysis_make_the_single_run() {
     let folder = folder("every");
-    for from in ["two-speed-ev", "planetary-reducer", "electric-drive-unit"] {
+    for from in [
+        "two-speed-ev",
+        "planetary-reducer",
+        "electric-drive-unit",
+        "drive-unit-system",
+    ] {
         copied(
             &common::file("examples").join(from),
             &folder.join("examples").join(from),

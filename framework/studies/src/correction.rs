@@ -323,6 +323,7 @@ pub struct CorrectionFrom {
     #[schemars(extend("x-refers-to" = "file"))]
     pub file: Option<String>,
     /// Name of the identified model set; default: the only one with a correction.
+    #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_set: Option<String>,
 }
 

@@ -1,6 +1,5 @@
 //! Paths whose values are chosen together.
 
-use gearloss_framework::resolve::lookup;
 use serde_json::Value;
 
 /// One path or several, and the values that each choice gives them.
@@ -63,12 +62,9 @@ impl Together {
         self.paths.join(", ")
     }
 
-    /// The choice that a description has already.
-    pub fn described(&self, description: &Value) -> Option<usize> {
-        let is_described = |row: &Vec<Value>| {
-            let mut pairs = self.paths.iter().zip(row);
-            pairs.all(|(path, value)| lookup(description, path) == Some(value))
-        };
+    /// The choice that a description has already, if `has` says whether a path has a value there.
+    pub fn described(&self, has: impl Fn(&str, &Value) -> bool) -> Option<usize> {
+        let is_described = |row: &Vec<Value>| self.paths.iter().zip(row).all(|(path, value)| has(path, value));
         self.rows.iter().position(is_described)
     }
 
@@ -90,6 +86,7 @@ pub fn joined(words: impl Iterator<Item = String>) -> String {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use gearloss_framework::resolve::lookup;
     use serde_json::json;
 
     use super::*;
@@ -105,10 +102,16 @@ mod tests {
             [(paths[0].clone(), json!(30)), (paths[1].clone(), json!(77))]
         );
         let described = json!({ "gears": { "P2": { "z": 24 }, "W2": { "z": 83 } } });
-        assert_eq!(both.described(&described), Some(0));
+        assert_eq!(
+            both.described(|path, value| lookup(&described, path) == Some(value)),
+            Some(0)
+        );
         let one = Together::new(Some("gears.P2.z"), &[], &[json!(24)]).unwrap();
         assert_eq!(one.overrides(0), [(paths[0].clone(), json!(24))]);
-        assert_eq!(one.described(&described), Some(0));
+        assert_eq!(
+            one.described(|path, value| lookup(&described, path) == Some(value)),
+            Some(0)
+        );
     }
 
     #[test]

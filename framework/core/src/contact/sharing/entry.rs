@@ -47,6 +47,7 @@ pub enum CalculatedSharing {
         /// CSV file or workbook with the columns `torque [Nm]` (absent: valid for every torque), `path [-]` from 0 at the first to 1 at the
         /// last contact if the first gear drives, `face [-]` from 0 to 1 (absent: the mean over the face), and `share [-]` or
         /// `line load [N/mm]`.
+        #[schemars(extend("x-refers-to" = "file"))]
         path: String,
     },
     /// Calculated in thin slices from the stiffness of the teeth, the `modification` of the gears and the `misalignment` of the mesh.

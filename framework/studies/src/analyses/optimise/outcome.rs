@@ -353,12 +353,12 @@ pub fn put_together(
         failures: FailureOfSearch::all(search.driven.iter().filter_map(|driven| driven.as_ref().err())),
         exhaustive: search.is_exhaustive,
         seed: entry.seed,
-        variables: variables(drives, genes, b),
+        variables: variables(drives, genes),
         limits: limits(drives, present, best),
         objectives: of_objectives(drives, search, present, best, (objectives, &bands)),
         gains: gains(drives, search, present, best, (objectives, &bands)),
         disagreements: disagreements(drives, search),
-        changes: ordered(changes, drives, genes, b, (objectives, &bands)),
+        changes: ordered(changes, drives, genes, (objectives, &bands)),
         front: front.iter().map(|i| design(*i)).collect(),
         all: (0..search.designs.len()).map(design).collect(),
         found: genes.map_or_else(Vec::new, |genes| {
@@ -380,14 +380,14 @@ fn words(drives: &Drives<'_>, genes: &[f64]) -> Vec<String> {
     pairs.map(|(variable, gene)| variable.words(*gene)).collect()
 }
 
-fn variables(drives: &Drives<'_>, genes: Option<&[f64]>, b: &Built<'_>) -> Vec<VariableOfSearch> {
+fn variables(drives: &Drives<'_>, genes: Option<&[f64]>) -> Vec<VariableOfSearch> {
     let variables = drives.variables.iter().enumerate();
     let variable = |(i, entry): (usize, &super::Variable)| {
         let gene = genes.map(|genes| genes[i]);
         VariableOfSearch {
             variable: entry.name.clone(),
             path: entry.path.clone(),
-            present: entry.present_words(b),
+            present: entry.present_words(),
             best: gene.map(|gene| entry.words(gene)),
             at_end_of_range: gene
                 .is_some_and(|gene| entry.number(gene).is_some() && !(1e-3..=1.0 - 1e-3).contains(&gene)),
@@ -529,7 +529,6 @@ fn ordered(
     changes: Vec<Change>,
     drives: &Drives<'_>,
     genes: Option<&[f64]>,
-    b: &Built<'_>,
     (objectives, bands): (&[Objective], &[Band]),
 ) -> Vec<ChangeOfDesign> {
     let Some(genes) = genes else { return Vec::new() };
@@ -546,7 +545,7 @@ fn ordered(
         let variable = &drives.variables[saved.variable];
         ChangeOfDesign {
             variable: variable.name.clone(),
-            from: variable.present_words(b),
+            from: variable.present_words(),
             to: variable.words(genes[saved.variable]),
             alone_w: lost(&saved.alone),
             share_w: lost(&saved.share),

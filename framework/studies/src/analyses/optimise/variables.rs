@@ -76,6 +76,8 @@ enum Kind {
         varied: Together,
         /// The values of the description among them.
         present: Option<usize>,
+        /// The values of the description in words.
+        described: String,
     },
 }
 
@@ -160,8 +162,21 @@ impl Variable {
                 "add the values to choose from, the present one among them",
             ));
         } else {
+            let quantity = |path: &str| Varied::new(cx.language, &b.resolved, path, Tie::Value).ok();
+            let now = |path: &str| lookup(&b.resolved.value, path);
+            let has = |path: &str, value: &Value| {
+                let numbers = quantity(path).and_then(|of| of.start().zip(of.quantity(value, false).ok()));
+                numbers.map_or(now(path) == Some(value), |(now, asked)| {
+                    (now - asked).abs() <= 1e-12 * asked.abs()
+                })
+            };
+            let words = |path: &String| {
+                let number = quantity(path).and_then(|of| Some(of.words(of.start()?)));
+                number.unwrap_or_else(|| now(path).map_or_else(|| "not stated".to_owned(), in_words))
+            };
             Kind::Choice {
-                present: varied.described(&b.resolved.value),
+                present: varied.described(has),
+                described: joined(varied.paths.iter().map(words)),
                 varied,
             }
         };
@@ -245,18 +260,13 @@ impl Variable {
     }
 
     /// The value of the description in words.
-    pub fn present_words(&self, b: &Built<'_>) -> String {
+    pub fn present_words(&self) -> String {
         match &self.kind {
             Kind::Number { range, .. } => {
                 let start = range.varied.start();
                 start.map_or_else(|| "not stated".to_owned(), |number| range.varied.words(number))
             }
-            Kind::Choice { varied, .. } => joined(
-                varied
-                    .paths
-                    .iter()
-                    .map(|path| lookup(&b.resolved.value, path).map_or_else(|| "not stated".to_owned(), in_words)),
-            ),
+            Kind::Choice { described, .. } => described.clone(),
         }
     }
 }

@@ -215,7 +215,7 @@ mod tests {
     #[test]
     fn voltages_limit_the_power() {
         for (power, limit) in [(200e3, 180e3), (-200e3, -160e3)] {
-            let (_, drawn) = cells().pass(power, 2.0);
+            let (_, drawn) = cells().pass(2.0 * power, 2.0);
             close(drawn.terminals, 2.0 * limit);
             assert!(drawn.limited);
         }
