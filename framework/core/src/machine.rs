@@ -1,7 +1,8 @@
 //! Electric machines at ports: losses of the machine and of its inverter, what its map contains, and how far it reaches.
 //!
-//! Source: compendium of drive units. Losses are interpolated, not efficiencies. An efficiency becomes a loss by P (1/eta - 1) while the
-//! machine drives and |P| (1 - eta) while it generates. Copper losses follow R/R20 = 1 + 0.00393 (theta - 20).
+//! Losses are interpolated, not efficiencies, which have no value at zero power. An efficiency becomes a loss by P (1/eta - 1) while the
+//! machine drives and |P| (1 - eta) while it generates. Copper losses follow R/R20 = 1 + 0.00393 (theta - 20), the coefficient of annealed
+//! copper.
 
 mod build;
 pub mod entry;

@@ -33,7 +33,7 @@ fn machine() -> Machine {
     Machine::of_map("machines.M", (0, 0), synthetic())
 }
 
-/// Check map of the compendium of drive units, section A: nodes and bilinear values.
+/// Nodes and bilinear values, calculated by hand.
 #[test]
 fn losses_are_interpolated_over_speed_and_signed_torque() {
     let machine = machine();
@@ -151,7 +151,7 @@ fn phase(power_factor: f64) -> PhaseCurrent {
     }
 }
 
-/// Conduction and switching of a check case of the compendium, section B.
+/// Conduction and switching against integrals over a period, computed independently.
 #[test]
 fn the_losses_of_an_inverter_are_those_of_its_data_sheet() {
     let all = bridge(SILICON).loss(&phase(0.85));

@@ -194,7 +194,7 @@ mod tests {
         );
     }
 
-    /// Checks of the compendium of drive units, section C.
+    /// The quadratic equation of the terminal power, solved independently.
     #[test]
     fn the_current_is_the_smaller_root() {
         for (power, current) in [(10e3, 27.995_485_3), (100e3, 303.337_045), (-50e3, -133.907_961)] {
