@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::common::study::{Ran, number, run_texts};
 
 /// One stage with ratio 9 whose only loss is a constant efficiency.
-const STAGE: &str = r#"
+pub const STAGE: &str = r#"
 gearloss: gearbox/1
 ports: { input: fast, output: slow }
 shafts: { fast: { axis: [0 mm, 0 mm] }, slow: { axis: [100 mm, 0 mm] } }

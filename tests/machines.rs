@@ -3,24 +3,7 @@
 use serde_json::Value;
 
 use crate::common::study::{Ran, number, run_texts};
-
-/// One stage with ratio 9 whose only loss is a constant efficiency.
-const STAGE: &str = r#"
-gearloss: gearbox/1
-ports: { input: fast, output: slow }
-shafts: { fast: { axis: [0 mm, 0 mm] }, slow: { axis: [100 mm, 0 mm] } }
-gears:
-  pinion: { shaft: fast, at: 30 mm, z: 20, facewidth: 20 mm }
-  wheel: { shaft: slow, at: 30 mm, z: 180, facewidth: 20 mm }
-meshes: { stage: { gears: [pinion, wheel], normal_module: 1 mm, centre_distance: 100 mm } }
-bearings:
-  B1: { shaft: fast, at: 0 mm, designation: "6204", axial: both }
-  B2: { shaft: fast, at: 60 mm, designation: "6204" }
-  B3: { shaft: slow, at: 0 mm, designation: "6204", axial: both }
-  B4: { shaft: slow, at: 60 mm, designation: "6204" }
-lubricants: { oil: { viscosity: { kv40: 46 mm2/s, kv100: 8 mm2/s } } }
-models: { gear_mesh: { type: efficiency, value: 0.97 }, bearing: none }
-"#;
+use crate::drive_unit::STAGE;
 
 const CYCLE: &str = "time [s],vehicle_speed [m/s]\n0,0\n10,10\n20,10\n30,0\n";
 
