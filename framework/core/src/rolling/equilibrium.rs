@@ -215,12 +215,12 @@ impl Problem {
         Vector::from_fn(|i, _| if self.is_held[i] { 0.0 } else { force[i] - self.load[i] })
     }
 
-    /// Stiffness in the directions that are not held, with a small share on the diagonal that makes it definite.
+    /// Stiffness in the directions that are not held, with a small share on the diagonal that makes it definite, and its factors.
     fn definite(
         &self,
         stiffness: &Matrix,
         least: f64,
-    ) -> Result<nalgebra::Cholesky<f64, nalgebra::Const<5>>, Unbalanced> {
+    ) -> Result<(Matrix, nalgebra::Cholesky<f64, nalgebra::Const<5>>), Unbalanced> {
         let free = Matrix::from_fn(|i, j| match (self.is_held[i] || self.is_held[j], i == j) {
             (false, _) => stiffness[(i, j)],
             (true, true) => 1.0,
@@ -229,13 +229,22 @@ impl Problem {
         let size = (0..5).map(|i| stiffness[(i, i)]).fold(0.0_f64, f64::max);
         let mut shift = least.max(1e-13 * size);
         while shift.is_finite() {
-            match nalgebra::Cholesky::new(free + Matrix::identity() * shift) {
-                Some(factors) => return Ok(factors),
+            let shifted = free + Matrix::identity() * shift;
+            match nalgebra::Cholesky::new(shifted) {
+                Some(factors) => return Ok((shifted, factors)),
                 None => shift = 100.0 * shift.max(f64::MIN_POSITIVE),
             }
         }
         // Overflow.
         Err(Unbalanced)
+    }
+
+    /// Newton's step. The stiffness is symmetric but for gyroscopic moments.
+    fn step(&self, stiffness: &Matrix, least: f64, off: &Vector) -> Result<Vector, Unbalanced> {
+        let (shifted, factors) = self.definite(stiffness, least)?;
+        let is_symmetric = *stiffness == stiffness.transpose();
+        let exact = (!is_symmetric).then(|| shifted.lu().solve(&-off)).flatten();
+        Ok(exact.unwrap_or_else(|| factors.solve(&-off)))
     }
 }
 
@@ -308,7 +317,7 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
         if size <= rounding.max(WANTED * applied) {
             break;
         }
-        let mut step = problem.definite(&at.stiffness, 1e-6 * size / reach)?.solve(&-off);
+        let mut step = problem.step(&at.stiffness, 1e-6 * size / reach, &off)?;
         let length = step.amax();
         if !length.is_finite() {
             return Err(Unbalanced);
@@ -347,7 +356,7 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
     }
     let scaled =
         |v: &Vector, factor: fn(f64, f64) -> f64| Axes::from_array(std::array::from_fn(|i| factor(v[i], lengths[i])));
-    let mut compliance = problem.definite(&at.stiffness, 0.0)?.inverse();
+    let mut compliance = problem.definite(&at.stiffness, 0.0)?.1.inverse();
     for i in (0..5).filter(|i| problem.is_held[*i] || at.loads == 0.0) {
         compliance[(i, i)] = f64::INFINITY;
     }

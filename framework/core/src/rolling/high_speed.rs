@@ -4,6 +4,9 @@
 //! on it: tan(beta) = sin a_o/(cos a_o + D/d_m) for the angle beta of its own axis, F_c = m d_m w_m^2/2, M_g = (m D^2/10) w_m w_R sin(beta).
 //! The whole gyroscopic moment is a friction force T = 2 M_g/D at the outer contact, a convention; the ball slips where T exceeds mu Q_o, which is
 //! not checked here. The centrifugal force is at the radius d_m/2.
+//!
+//! With this axis the speeds of Jones shorten to w_m = w (1 - (D/d_m) cos a_i)/(1 + cos(a_i - a_o)), and T to 2/5 F_c sin a_o, so that both forces
+//! of inertia have derivatives in closed form.
 
 use super::balls::{BallLoad, Balls, along, local};
 use super::equilibrium::{Axes, LocalForce, Row};
@@ -54,8 +57,14 @@ struct GrooveContact {
 }
 
 impl GrooveContact {
-    fn stiffness(&self) -> [[f64; 2]; 2] {
+    fn stiffness(&self) -> Matrix {
         along(self.direction, self.load, self.slope, self.distance)
+    }
+
+    /// Change of the contact angle with the place of the ball. \[rad/m\]
+    fn turn(&self) -> [f64; 2] {
+        let [sin, cos] = self.direction;
+        [cos / self.distance, -sin / self.distance]
     }
 
     fn angle(&self) -> f64 {
@@ -66,18 +75,51 @@ impl GrooveContact {
 /// Both contacts of a ball that is in equilibrium.
 struct Settled {
     contacts: [GrooveContact; 2],
-    motion: BallMotion,
+    /// Forces of inertia, and their changes with the angles of the inner and of the outer contact. \[N, N/rad\]
+    inertia: [f64; 2],
+    turned: [[f64; 2]; 2],
+    centrifugal: f64,
 }
 
-fn sum(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] + b[i][j]))
+impl Settled {
+    /// Forces on the ball that are not balanced. \[N\]
+    fn off(&self) -> [f64; 2] {
+        let [inner, outer] = &self.contacts;
+        [0, 1].map(|i| inner.load * inner.direction[i] - outer.load * outer.direction[i] + self.inertia[i])
+    }
+
+    /// Change of the forces of inertia as the ball moves away from the groove of a ring. \[N/m\]
+    fn inertia_slope(&self, ring: usize) -> Matrix {
+        let turn = self.contacts[ring].turn();
+        self.turned[ring].map(|force| turn.map(|angle| force * angle))
+    }
+
+    /// Resistance of the ball to being moved, and the change of the forces on it with the place of the inner groove. \[N/m\]
+    fn stiffness(&self) -> [Matrix; 2] {
+        let [inner, outer] = self.contacts.map(|contact| contact.stiffness());
+        let of_inner = combine(inner, self.inertia_slope(0), |a, b| a + b);
+        let of_outer = combine(outer, self.inertia_slope(1), |a, b| a - b);
+        [combine(of_inner, of_outer, |a, b| a + b), of_inner]
+    }
 }
 
-fn solve([[a, b], [c, d]]: [[f64; 2]; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+type Matrix = [[f64; 2]; 2];
+
+fn combine(a: Matrix, b: Matrix, of: impl Fn(f64, f64) -> f64) -> Matrix {
+    std::array::from_fn(|i| std::array::from_fn(|j| of(a[i][j], b[i][j])))
+}
+
+fn norm([x, y]: [f64; 2]) -> f64 {
+    x.hypot(y)
+}
+
+fn solve([[a, b], [c, d]]: Matrix, [x, y]: [f64; 2]) -> [f64; 2] {
     let determinant = a * d - b * c;
     [(d * x - b * y) / determinant, (a * y - c * x) / determinant]
 }
 
+/// Friction of the gyroscopic moment over the centrifugal force and the sine of the outer contact angle: 2/D times m D^2/10 times d_m/D over m d_m/2.
+const GYROSCOPIC: f64 = 0.4;
 /// Steps after which the search for the place of a ball ends.
 const STEPS: usize = 100;
 
@@ -98,18 +140,13 @@ impl BallsAtSpeed<'_> {
     pub fn motion(&self, [inner, outer]: [[f64; 2]; 2]) -> BallMotion {
         let geometry = self.balls.geometry();
         let ratio = geometry.diameter / geometry.pitch_diameter;
-        let axis = {
-            let [sin, cos] = [outer[0], outer[1] + ratio];
-            let length = (sin * sin + cos * cos).sqrt();
-            [sin / length, cos / length]
-        };
-        let cos_from_axis = |[sin, cos]: [f64; 2]| cos * axis[1] + sin * axis[0];
+        let axis = [outer[0], outer[1] + ratio];
+        let length = axis[0].hypot(axis[1]);
+        let axis = axis.map(|part| part / length);
         let sin_from_axis = |[sin, cos]: [f64; 2]| axis[0] * cos - axis[1] * sin;
-        let of_inner = (1.0 - ratio * inner[1]) * cos_from_axis(outer);
-        let of_outer = (1.0 + ratio * outer[1]) * cos_from_axis(inner);
-        let orbital = self.speed * of_inner / (of_inner + of_outer);
-        let rotation = orbital * (1.0 / ratio + outer[1]) / cos_from_axis(outer);
-        let inertia = self.mass * geometry.diameter * geometry.diameter / 10.0;
+        let orbital = self.orbital(inner, outer);
+        let rotation = orbital * length / ratio;
+        let centrifugal = self.centrifugal(orbital);
         BallMotion {
             orbital,
             rotation,
@@ -118,8 +155,49 @@ impl BallsAtSpeed<'_> {
                 rotation * sin_from_axis(inner) - (self.speed - orbital) * inner[0],
                 rotation * sin_from_axis(outer) + orbital * outer[0],
             ],
-            centrifugal: 0.5 * self.mass * geometry.pitch_diameter * orbital * orbital,
-            gyroscopic: inertia * orbital * rotation * axis[0],
+            centrifugal,
+            gyroscopic: 0.5 * GYROSCOPIC * centrifugal * outer[0] * geometry.diameter,
+        }
+    }
+
+    /// Speed of the centre of a ball about the axis of the bearing. \[rad/s\]
+    fn orbital(&self, inner: [f64; 2], outer: [f64; 2]) -> f64 {
+        let geometry = self.balls.geometry();
+        let ratio = geometry.diameter / geometry.pitch_diameter;
+        self.speed * (1.0 - ratio * inner[1]) / (1.0 + inner[1] * outer[1] + inner[0] * outer[0])
+    }
+
+    fn centrifugal(&self, orbital: f64) -> f64 {
+        0.5 * self.mass * self.balls.geometry().pitch_diameter * orbital * orbital
+    }
+
+    /// A ball at a place from the centre of the outer groove, with that of the inner groove.
+    fn at(&self, place: [f64; 2], centres: [f64; 2]) -> Settled {
+        let outer = self.groove_contact(1, place);
+        let inner = self.groove_contact(0, [centres[0] - place[0], centres[1] - place[1]]);
+        let ([sin_i, cos_i], [sin, cos]) = (inner.direction, outer.direction);
+        let geometry = self.balls.geometry();
+        let ratio = geometry.diameter / geometry.pitch_diameter;
+        let centrifugal = self.centrifugal(self.orbital(inner.direction, outer.direction));
+        let inertia = [
+            GYROSCOPIC * centrifugal * sin * cos,
+            centrifugal * (1.0 - GYROSCOPIC * sin * sin),
+        ];
+        // Twice the relative change of the speed with each angle.
+        let apart = 2.0 * (sin_i * cos - cos_i * sin) / (1.0 + cos_i * cos + sin_i * sin);
+        let of_inner = 2.0 * ratio * sin_i / (1.0 - ratio * cos_i) + apart;
+        let turned = [
+            inertia.map(|force| of_inner * force),
+            [
+                GYROSCOPIC * centrifugal * (cos * cos - sin * sin) - apart * inertia[0],
+                -2.0 * GYROSCOPIC * centrifugal * sin * cos - apart * inertia[1],
+            ],
+        ];
+        Settled {
+            contacts: [inner, outer],
+            inertia,
+            turned,
+            centrifugal,
         }
     }
 
@@ -143,6 +221,28 @@ impl BallsAtSpeed<'_> {
         }
     }
 
+    /// Distance of the centres of ball and groove under a load. \[m\]
+    fn distance_under(&self, ring: usize, load: f64) -> f64 {
+        let stiffness = self.balls.contacts()[ring].stiffness();
+        self.free_distance(ring) + (load / stiffness).powf(2.0 / 3.0)
+    }
+
+    /// About where a ball comes to rest that is thrown outwards: at the bottom of the outer groove or, if the inner groove holds it, pressed into
+    /// both.
+    fn thrown(&self, centrifugal: f64, centres: [f64; 2]) -> [f64; 2] {
+        let [inner, outer] = [0, 1].map(|ring| self.distance_under(ring, centrifugal));
+        let bottom = [0.0, outer];
+        if norm([centres[0], centres[1] - outer]) <= self.free_distance(0) {
+            return bottom;
+        }
+        // The corner of both circles that is further outwards.
+        let distance = norm(centres).max(f64::MIN_POSITIVE);
+        let [sin, cos] = centres.map(|part| part / distance);
+        let along = 0.5 * (distance + (outer - inner) * (outer + inner) / distance);
+        let across = ((outer - along) * (outer + along)).max(0.0).sqrt().copysign(sin);
+        [along * sin - across * cos, along * cos + across.abs() * sin.abs()]
+    }
+
     /// The place of a ball between the centres of the grooves, at a displacement in its plane: `None` if it touches nothing.
     fn settle(&self, displacement: [f64; 3]) -> Option<Settled> {
         let centres = self.balls.centres(displacement);
@@ -151,45 +251,28 @@ impl BallsAtSpeed<'_> {
             return None;
         }
         let toward = centres.map(|part| part / distance.max(f64::MIN_POSITIVE));
-        let stiffness = self.balls.contacts()[1].stiffness();
         let load = self.balls.stiffness() * approach.max(0.0).powf(1.5);
-        let motion = self.motion([toward; 2]);
-        let pressed = (load.max(motion.centrifugal) / stiffness).powf(2.0 / 3.0);
-        let reach = self.free_distance(1) + pressed;
-        // Centre of the ball from that of the outer groove; thrown outwards where the rings do not hold it.
-        let mut place = if approach > 0.0 {
-            toward.map(|part| part * reach)
+        let centrifugal = self.centrifugal(self.orbital(toward, toward));
+        let mut place = if load > centrifugal {
+            toward.map(|part| part * self.distance_under(1, load))
         } else {
-            [0.0, reach]
+            self.thrown(centrifugal, centres)
         };
-        let evaluate = |place: [f64; 2]| {
-            let outer = self.groove_contact(1, place);
-            let inner = self.groove_contact(0, [centres[0] - place[0], centres[1] - place[1]]);
-            let motion = self.motion([inner.direction, outer.direction]);
-            let friction = 2.0 * motion.gyroscopic / self.balls.geometry().diameter;
-            let [sin, cos] = outer.direction;
-            let inertia = [friction * cos, motion.centrifugal - friction * sin];
-            let off = [0, 1].map(|i| inner.load * inner.direction[i] - outer.load * outer.direction[i] + inertia[i]);
-            let contacts = [inner, outer];
-            (Settled { contacts, motion }, inertia, off)
-        };
-        let (mut at, mut inertia, mut off) = evaluate(place);
-        // Slope of the forces of inertia, from their changes so far (Broyden).
-        let mut slope = [[0.0; 2]; 2];
+        let mut at = self.at(place, centres);
         for _ in 0..STEPS {
-            let size = off[0].hypot(off[1]);
-            let forces = at.contacts[0].load + at.contacts[1].load + at.motion.centrifugal;
-            let stiffness = sum(at.contacts[0].stiffness(), at.contacts[1].stiffness());
-            let step = solve(sum(stiffness, slope.map(|row| row.map(|x| -x))), off);
+            let off = at.off();
+            let size = norm(off);
+            let forces = at.contacts[0].load + at.contacts[1].load + at.centrifugal;
+            let step = solve(at.stiffness()[0], off);
             if size <= 1e-14 * forces || !(step[0].is_finite() && step[1].is_finite()) {
                 break;
             }
             let mut share = 1.0;
-            let (next, reached, changed, left) = loop {
+            let (next, reached) = loop {
                 let next = [place[0] + share * step[0], place[1] + share * step[1]];
-                let (reached, changed, left) = evaluate(next);
-                if left[0].hypot(left[1]) < size || share < 1e-3 {
-                    break (next, reached, changed, left);
+                let reached = self.at(next, centres);
+                if norm(reached.off()) < size || share < 1e-3 {
+                    break (next, reached);
                 }
                 // Rounding.
                 if size <= 1e-12 * forces {
@@ -197,17 +280,10 @@ impl BallsAtSpeed<'_> {
                 }
                 share *= 0.5;
             };
-            let moved = [next[0] - place[0], next[1] - place[1]];
-            let square = moved[0] * moved[0] + moved[1] * moved[1];
-            if square == 0.0 {
+            if next == place {
                 break;
             }
-            for i in [0, 1] {
-                let expected = slope[i][0] * moved[0] + slope[i][1] * moved[1];
-                let missed = (changed[i] - inertia[i] - expected) / square;
-                slope[i] = [slope[i][0] + missed * moved[0], slope[i][1] + missed * moved[1]];
-            }
-            (place, at, inertia, off) = (next, reached, changed, left);
+            (place, at) = (next, reached);
         }
         Some(at)
     }
@@ -222,7 +298,7 @@ impl BallsAtSpeed<'_> {
                     load: at.contacts.map(|contact| contact.load),
                     angle: at.contacts.map(|contact| contact.angle()),
                 },
-                motion: at.motion,
+                motion: self.motion(at.contacts.map(|contact| contact.direction)),
             })
         })
     }
@@ -241,14 +317,13 @@ impl Row for BallsAtSpeed<'_> {
         let Some(at) = self.settle(displacement) else {
             return LocalForce::default();
         };
-        let [inner, outer] = at.contacts;
+        let inner = at.contacts[0];
         if inner.load <= 0.0 {
             return LocalForce::default();
         }
-        // The ball gives way; the small change of the gyroscopic moment is neglected in the stiffness, not in the force.
-        let of_inner = inner.stiffness();
-        let both = sum(of_inner, outer.stiffness());
-        let columns = [0, 1].map(|j| solve(both, [of_inner[0][j], of_inner[1][j]]));
+        // The ball gives way.
+        let (of_inner, [both, moved]) = (inner.stiffness(), at.stiffness());
+        let columns = [0, 1].map(|j| solve(both, [moved[0][j], moved[1][j]]));
         let k = [0, 1]
             .map(|i| [0, 1].map(|j| of_inner[i][j] - of_inner[i][0] * columns[j][0] - of_inner[i][1] * columns[j][1]));
         local(inner.direction.map(|part| inner.load * part), k, inner.load)

@@ -172,3 +172,30 @@ fn an_impossible_speed_has_no_equilibrium() {
     let found = balance(&bearing, &Axes::loaded(f64::NAN, 1.0));
     assert_eq!(found, Err(Unbalanced));
 }
+
+/// The stiffness of a ball is the slope of its force, with the change of its inertia: loaded, and barely held.
+#[test]
+fn stiffness_at_speed_is_a_slope() {
+    let bearing = bearing(steel());
+    let row = bearing.at_speed(1500.0);
+    for place in [[30.0 * UM, 10.0 * UM, 0.0], [-120.0 * UM, 100.0 * UM, 20.0 * UM]] {
+        let at = row.force(0, place);
+        assert!(at.load > 0.0);
+        for to in 0..3 {
+            let moved = |step: f64| {
+                let mut place = place;
+                place[to] += step;
+                row.force(0, place).force
+            };
+            let (ahead, behind) = (moved(1e-4 * UM), moved(-1e-4 * UM));
+            for from in 0..3 {
+                let slope = (ahead[from] - behind[from]) / (2e-4 * UM);
+                assert!(
+                    (at.stiffness[from][to] - slope).abs() < 1e-5 * at.stiffness[0][0].abs(),
+                    "{from} {to}: {} {slope}",
+                    at.stiffness[from][to]
+                );
+            }
+        }
+    }
+}
