@@ -22,6 +22,11 @@ fn synthetic() -> String {
 
 /// A study of the stage with a machine, a vehicle with more keys, and analyses.
 fn unit(machine: &str, vehicle: &str, rest: &str) -> Ran {
+    unit_with_map(machine, &synthetic(), vehicle, rest)
+}
+
+/// The same with the text of the file `map.csv`.
+fn unit_with_map(machine: &str, map: &str, vehicle: &str, rest: &str) -> Ran {
     let study = format!(
         "gearloss: study/1
 gearboxes: {{ box: box.yaml }}
@@ -38,10 +43,9 @@ vehicles:
 "
     );
     let gearbox = format!("{STAGE}\nmachines: {{ motor: {machine} }}\n");
-    let map = synthetic();
     run_texts(
         &study,
-        &[("box.yaml", &gearbox), ("three.csv", CYCLE), ("map.csv", &map)],
+        &[("box.yaml", &gearbox), ("three.csv", CYCLE), ("map.csv", map)],
     )
 }
 
@@ -224,27 +228,8 @@ fn a_battery_at_its_limit_is_counted() {
 fn a_map_that_does_not_cover_the_cycle_says_where_and_how_much() {
     let battery = "    battery: { energy: 60 kWh, efficiency: 1 }";
     let short = "speed [rpm],torque [Nm],loss [W]\n0,-60,50\n0,0,10\n0,50,40\n2000,-60,100\n2000,0,20\n2000,50,90\n";
-    let study = format!(
-        "gearloss: study/1
-gearboxes: {{ box: box.yaml }}
-conditions: {{ oil_temperature: 60 degC }}
-cycles: {{ three: {{ file: three.csv }} }}
-vehicles:
-  car:
-    mass: 1500 kg
-    coast_down: {{ a: 100 N, b: 0 N s/m, c: 0.4 N s2/m2 }}
-    tyre_radius: 300 mm
-    rotating_mass_factor: 1.05
-{REGENERATION}
-{battery}
-{CYCLES}
-"
-    );
-    let gearbox = format!("{STAGE}\nmachines: {{ motor: {{ map: short.csv, contains: [inverter] }} }}\n");
-    let ran = run_texts(
-        &study,
-        &[("box.yaml", &gearbox), ("three.csv", CYCLE), ("short.csv", short)],
-    );
+    let machine = "{ map: map.csv, contains: [inverter] }";
+    let ran = unit_with_map(machine, short, &format!("{REGENERATION}\n{battery}"), CYCLES);
     assert!(ran.succeeded, "{}", ran.text);
     let farthest = &ran.json("c")["cycles"][0]["machines"][0]["farthest"];
     close(&farthest["torque_beyond_nm"], 57.903_780_068_7 - 50.0);

@@ -265,3 +265,34 @@ fn overrides_of_any_kind_follow_each_other() {
         }
     }
 }
+
+/// What another value of a number builds again: models whose part or parameters it changes, no others.
+#[test]
+fn only_models_that_read_a_number_are_built_again() {
+    let language = language();
+    let gearbox = Gearbox::read(&language, &file(EXAMPLES[0])).unwrap();
+    let variants = Variants::new(&language, &gearbox, Choice::of_set("joint"));
+    let again = |path: &str, values: [f64; 2]| {
+        let [before, after] = values.map(|value| vec![(path.to_owned(), Value::from(value))]);
+        variants.built_again([&before, &after]).unwrap()
+    };
+    for (path, values) in [
+        ("bearings.*.radial_factor", [1.0, 1.2]),
+        ("seals.*.loss_factor", [0.5, 2.0]),
+        ("gears.*.loss_factor", [1.0, 2.0]),
+        ("meshes.*.loss_factor", [1.0, 2.0]),
+        ("bearings.*.temperature_offset", [1.0, 2.0]),
+    ] {
+        assert_eq!(again(path, values), Some(Vec::new()), "{path}");
+    }
+    let meshes = ["M1", "M2", "M3"].map(|id| format!("meshes.{id}.model"));
+    assert_eq!(again("gears.*.surface.rq", [0.4, 0.6]), Some(meshes.to_vec()));
+    let bearings = again("bearings.*.model.mu_bl", [0.12, 0.2]).unwrap();
+    assert!(bearings.contains(&"bearings.B1.model".to_owned()), "{bearings:?}");
+    assert!(
+        bearings.iter().all(|path| path.starts_with("bearings.")),
+        "{bearings:?}"
+    );
+    let written = ["1.1 l", "1.2 l"].map(|volume| vec![("housing.oil.volume".to_owned(), Value::from(volume))]);
+    assert_eq!(variants.built_again([&written[0], &written[1]]).unwrap(), None);
+}

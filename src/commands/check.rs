@@ -12,7 +12,7 @@ use gearloss_report::check::{CheckRecord, FileRecord, checked_text, resolved_tex
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 use gearloss_studies::checked::CheckedGearbox;
-use gearloss_studies::checked_study::CheckedStudy;
+use gearloss_studies::checked_study::{CheckedStudy, built_again};
 use gearloss_studies::corpus::{Corpus, Set};
 
 use super::set;
@@ -54,6 +54,13 @@ pub fn run(args: &CheckArgs, out: &mut Out) -> Result<End, Failure> {
             for (analysis, work) in looked.plans.iter().filter(|_| args.plan) {
                 for part in work {
                     out.line(format!("  {analysis}: {part}"))?;
+                }
+            }
+            if args.plan && looked.refused.is_empty() {
+                for (analysis, samples) in built_again(language, &Disk::shared(), file) {
+                    for sample in samples {
+                        out.line(format!("  {analysis}: {sample}"))?;
+                    }
                 }
             }
             for note in &looked.notes {

@@ -389,7 +389,7 @@ impl<'a> Names<'a> {
 
     /// Starts the next component.
     pub(crate) fn turn_to(&mut self, section: &str, id: &str) {
-        self.path = format!("{section}.{id}");
+        self.path = [section, ".", id].concat();
         id.clone_into(&mut self.id);
         self.site = (None, 0.0);
         self.level = None;

@@ -19,6 +19,7 @@ pub mod states;
 
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
+use serde::de::value::MapDeserializer;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -164,6 +165,11 @@ impl GearboxEntry {
             .is_some_and(|(_, lubricant)| lubricant.grease.is_some())
     }
 
+    /// True if one of the lubricants is a grease.
+    pub fn has_grease(&self) -> bool {
+        self.lubricants.iter().any(|(_, lubricant)| lubricant.grease.is_some())
+    }
+
     /// True if there is a mesh of gears with this path, such as `meshes.M1` or `worm_meshes.W`.
     pub fn has_mesh(&self, path: &str) -> bool {
         path.split_once('.').is_some_and(|(section, id)| match section {
@@ -189,14 +195,25 @@ impl GearboxEntry {
         meshes.chain(bevel).chain(worm).chain(crossed)
     }
 
-    /// Reads an entry of a section again, in which only numbers differ from before; the whole document for a section without entries.
+    /// Reads an entry of a section again, in which only numbers differ from before, and in its models none if they are `same`; the whole
+    /// document for a section without entries.
     ///
     /// # Errors
     /// If it cannot be read.
-    pub(crate) fn read_again(&mut self, document: &Value, section: &str, id: &str) -> Result<(), serde_json::Error> {
+    pub(crate) fn read_again(
+        &mut self,
+        document: &Value,
+        (section, id): (&str, &str),
+        same: SameModels,
+    ) -> Result<(), serde_json::Error> {
         let section_value = &document[section];
         match section {
             "shafts" => entry_again(&mut self.shafts, section_value, id),
+            // Copies of their models as written take longer to read than all of their numbers.
+            "gears" if same.0 => entry_but_models(&mut self.gears, section_value, id, |new, old| new.drag = old.drag),
+            "meshes" if same.0 => entry_but_models(&mut self.meshes, section_value, id, |new, old| {
+                (new.model, new.drag) = (old.model, old.drag);
+            }),
             "gears" => entry_again(&mut self.gears, section_value, id),
             "meshes" => entry_again(&mut self.meshes, section_value, id),
             "bevel_meshes" => entry_again(&mut self.bevel_meshes, section_value, id),
@@ -232,6 +249,31 @@ fn entry_again<T: DeserializeOwned>(
 ) -> Result<(), serde_json::Error> {
     if let Some((_, entry)) = entries.0.iter_mut().find(|(known, _)| known == id) {
         *entry = T::deserialize(&section[id])?;
+    }
+    Ok(())
+}
+
+/// True if the models of an entry are as they were.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SameModels(pub bool);
+
+/// Keys of the models of gears and meshes.
+pub(crate) const OF_MODELS: [&str; 2] = ["model", "drag"];
+
+/// Reads one entry of a section again, without the models, which are kept.
+fn entry_but_models<T: DeserializeOwned>(
+    entries: &mut Ordered<T>,
+    section: &Value,
+    id: &str,
+    keep: impl FnOnce(&mut T, T),
+) -> Result<(), serde_json::Error> {
+    if let Some((_, entry)) = entries.0.iter_mut().find(|(known, _)| known == id) {
+        let fields = section[id].as_object().into_iter().flatten();
+        let fields = fields.filter(|(key, _)| !OF_MODELS.contains(&key.as_str()));
+        let fields = fields.map(|(key, value)| (key.as_str(), value));
+        let new = T::deserialize(MapDeserializer::new(fields))?;
+        let old = std::mem::replace(entry, new);
+        keep(entry, old);
     }
     Ok(())
 }

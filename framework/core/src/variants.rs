@@ -76,6 +76,26 @@ impl<'a> Variants<'a> {
         })
     }
 
+    /// Paths of the models that are built again for other values of overrides; the values of the others are set in what was built. `None` if
+    /// the description is resolved again.
+    ///
+    /// # Errors
+    /// All findings of resolving and building.
+    pub fn built_again(&self, values: [&[(String, Value)]; 2]) -> Result<Option<Vec<String>>, Findings> {
+        let [before, after] = values;
+        let mut bench = self.bench(before)?;
+        let (_, memory) = self
+            .gearbox
+            .build_again(self.language, &bench.resolved, Memory::default())?;
+        bench.memory = memory;
+        if bench.places.is_empty() || !bench.write(after) {
+            return Ok(None);
+        }
+        let memory = std::mem::take(&mut bench.memory);
+        let (_, memory) = self.gearbox.build_again(self.language, &bench.resolved, memory)?;
+        Ok(Some(memory.built().to_vec()))
+    }
+
     /// The transmission with further overrides, and what is made of it and its resolved description.
     fn built<T>(
         &self,

@@ -62,7 +62,7 @@ use serde_json::Value;
 
 pub use engine::Engine;
 pub use head::Head;
-pub use plan::{Plan, Run, Runs, Work};
+pub use plan::{BuiltAgain, Plan, Run, Runs, Work};
 pub use planner::{Built, Planner, gear_of};
 pub use stopped::Stopped;
 use within::JobsWithin;
@@ -200,6 +200,7 @@ pub struct AnalysisKind {
     uses: fn(&Written) -> Uses<'_>,
     then: fn(&Written) -> Option<Then<'_>>,
     plan: fn(&Written, &Planner<'_>) -> Result<Vec<Work>, Stopped>,
+    samples: fn(&Written, &Planner<'_>) -> Result<Vec<BuiltAgain>, Stopped>,
     run: fn(&Written, &Engine<'_>) -> Result<Box<dyn Outcome>, Stopped>,
     formats: fn(&Written) -> &[Write],
     outcome: fn(&mut SchemaGenerator) -> Schema,
@@ -229,6 +230,7 @@ impl AnalysisKind {
                     Err(Stopped::Several(failures))
                 }
             },
+            samples: |entry, cx| Ok(typed::<A>(entry).plan(cx)?.samples(cx)),
             run: |entry, engine| {
                 let entry = typed::<A>(entry);
                 let plan = entry.plan(engine.planner())?;
@@ -339,6 +341,14 @@ impl AnalysisEntry {
     /// As [`Analysis::plan`].
     pub fn plan(&self, cx: &Planner<'_>) -> Result<Vec<Work>, Stopped> {
         (self.kind.plan)(self.written.as_ref(), cx)
+    }
+
+    /// How other values of its varied quantities get into the gearbox of a sample.
+    ///
+    /// # Errors
+    /// As [`Analysis::plan`].
+    pub fn samples(&self, cx: &Planner<'_>) -> Result<Vec<BuiltAgain>, Stopped> {
+        (self.kind.samples)(self.written.as_ref(), cx)
     }
 
     /// Plans, and computes the outcome.

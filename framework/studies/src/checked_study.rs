@@ -7,7 +7,7 @@ use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 
 use crate::analyses::progress::Progress;
-use crate::analyses::{Planner, Stopped, Work};
+use crate::analyses::{BuiltAgain, Planner, Stopped, Work};
 use crate::run::StudyRun;
 use crate::study::{Cautions, Study};
 
@@ -79,6 +79,20 @@ impl CheckedStudy {
             notes,
         }
     }
+}
+
+/// What other values of varied quantities build again in the samples of each analysis of a study that is fine.
+pub fn built_again(language: &Language, files: &SharedSource, file: &Path) -> Vec<(String, Vec<BuiltAgain>)> {
+    let Ok(study) = Study::read_from(language, files, file) else {
+        return Vec::new();
+    };
+    let run = StudyRun::new(language, &study);
+    let of_analysis = |name: &str| {
+        let study = run.study_for_analysis();
+        let samples = run.samples(&Planner::new(language, &study, name));
+        Some((name.to_owned(), samples.ok()?))
+    };
+    study.entry.analyses.ids().filter_map(of_analysis).collect()
 }
 
 /// Findings that were reported before the analyses began: path and message.

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use crate::analyses::identify::IdentifyOutcome;
 use crate::analyses::progress::{Progress, Silent};
-use crate::analyses::{AnalysisEntry, Engine, Outcome, Planner, Stopped, Work};
+use crate::analyses::{AnalysisEntry, BuiltAgain, Engine, Outcome, Planner, Stopped, Work};
 use crate::codes;
 use crate::study::Study;
 
@@ -99,6 +99,14 @@ impl<'a> StudyRun<'a> {
     /// That no analysis has the name; everything that is wrong with its input.
     pub fn plan(&self, planner: &Planner<'_>) -> Result<Vec<Work>, Stopped> {
         entry(planner)?.plan(planner)
+    }
+
+    /// How other values of the varied quantities of an analysis get into the gearbox of a sample; empty for analyses without samples.
+    ///
+    /// # Errors
+    /// As [`StudyRun::plan`].
+    pub fn samples(&self, planner: &Planner<'_>) -> Result<Vec<BuiltAgain>, Stopped> {
+        entry(planner)?.samples(planner)
     }
 
     /// The outcome of the analysis of an engine, which may report progress, keep results of tasks or take rows of large tables.

@@ -19,13 +19,13 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 terms! {
-    WASHERS = load("washers");
-    PINIONS = load("pinions");
-    TEETH = load("teeth");
+    pub(super) WASHERS = load("washers");
+    pub(super) PINIONS = load("pinions");
+    pub(super) TEETH = load("teeth");
 }
 observed! {
-    BIAS = ("S", "-", "torque bias (T_slow - T_fast)/T_case while the case drives");
-    RATIO = ("T_slow/T_fast", "-", "torque of the slower side over that of the faster one while the case drives");
+    pub(super) BIAS = ("S", "-", "torque bias (T_slow - T_fast)/T_case while the case drives");
+    pub(super) RATIO = ("T_slow/T_fast", "-", "torque of the slower side over that of the faster one while the case drives");
 }
 
 /// Bevel differential: friction of thrust washers, pinions and teeth; torque bias of an open differential.

@@ -15,22 +15,12 @@ use gearloss_framework::mechanism::Answers;
 use gearloss_framework::mechanism::bevel_mesh::{BevelMesh, BevelPart};
 use gearloss_framework::mechanism::differential::{Differential, DifferentialAt, DifferentialLaw};
 use gearloss_framework::real::Mask as _;
+use gearloss_framework::register;
 use gearloss_framework::registry::{Build, Check, Evidence, ModelRef, Slot, default_of, formula};
-use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::bevel_gears::{ContactFriction, Contacts};
-
-terms! {
-    WASHERS = load("washers");
-    PINIONS = load("pinions");
-    TEETH = load("teeth");
-}
-observed! {
-    BIAS = ("S", "-", "torque bias (T_slow - T_fast)/T_case while the case drives");
-    RATIO = ("T_slow/T_fast", "-", "torque of the slower side over that of the faster one while the case drives");
-}
+use super::bevel_gears::{BIAS, ContactFriction, Contacts, PINIONS, RATIO, TEETH, WASHERS};
 
 /// Bevel differential whose gears are meshes of bevel gears: torque bias of an open differential from laws of tooth friction.
 #[derive(Debug, Deserialize, JsonSchema)]

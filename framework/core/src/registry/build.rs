@@ -207,7 +207,8 @@ impl<'a> Build<'a> {
     }
 
     /// A build after another one.
-    pub(crate) fn again(registry: &'a Registry, files: &'a Files, memory: Memory) -> Self {
+    pub(crate) fn again(registry: &'a Registry, files: &'a Files, mut memory: Memory) -> Self {
+        memory.begin();
         Self {
             registry,
             files,
@@ -441,7 +442,7 @@ impl<'a> Build<'a> {
             first,
             cells: [first_cell, self.cells],
         };
-        self.memory.keep(path, kept);
+        self.memory.keep_model(path, kept);
         Ok(slot)
     }
 
@@ -462,7 +463,7 @@ impl<'a> Build<'a> {
 
     /// A part, or that of the last build if it is equal, so that its models are found again.
     pub(crate) fn part_again<P: PartialEq + Any + Send + Sync>(&mut self, path: &str, part: P) -> Arc<P> {
-        let key = format!("{path}: part");
+        let key = [path, ": part"].concat();
         match self.memory.get::<Arc<P>>(&key) {
             Some(known) if **known == part => Arc::clone(known),
             _ => {
@@ -479,7 +480,7 @@ impl<'a> Build<'a> {
         I: PartialEq + Any + Send + Sync,
         O: Clone + Any + Send + Sync,
     {
-        let key = format!("{}: {step}", self.path);
+        let key = [&self.path, ": ", step].concat();
         self.memory.repeat(&key, input, compute)
     }
 

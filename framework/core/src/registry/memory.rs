@@ -10,6 +10,8 @@ pub(crate) struct Memory {
     kept: HashMap<String, Box<dyn Any + Send + Sync>>,
     /// Entries (`bearings.B1`) in which a value has changed, each with the keys of these values; empty for an entry that is a value.
     changed: BTreeMap<String, Vec<String>>,
+    /// Paths of the models that this build did not find here.
+    built: Vec<String>,
 }
 
 impl Memory {
@@ -22,6 +24,22 @@ impl Memory {
                 self.changed.insert(entry.to_owned(), vec![key.to_owned()]);
             }
         }
+    }
+
+    /// Begins another build.
+    pub fn begin(&mut self) {
+        self.built.clear();
+    }
+
+    /// Keeps a model that was built at a path.
+    pub fn keep_model<T: Any + Send + Sync>(&mut self, path: &str, model: T) {
+        self.built.push(path.to_owned());
+        self.keep(path, model);
+    }
+
+    /// Paths of the models that were built in the last build, because they were not those of the build before.
+    pub fn built(&self) -> &[String] {
+        &self.built
     }
 
     /// Everything is built as the document is now.

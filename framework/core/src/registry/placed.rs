@@ -302,7 +302,7 @@ fn place<C: Component>(
     };
     let spot = names.spot(&described.common);
     let part = Arc::clone(&described.part);
-    let model = build.slot_at::<C>(&format!("{path}.model"), &part, &value["model"])?;
+    let model = build.slot_at::<C>(&[&path, ".model"].concat(), &part, &value["model"])?;
     let (Some(seat), Some(spot)) = (seat, spot) else {
         return Ok(None);
     };

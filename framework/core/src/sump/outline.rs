@@ -38,7 +38,12 @@ impl Outline {
             } else {
                 f64::from(u8::from(low >= level))
             };
-            share * (b[0] - a[0]).hypot(b[1] - a[1])
+            // Most sides of a hull are below the oil.
+            if share > 0.0 {
+                share * (b[0] - a[0]).hypot(b[1] - a[1])
+            } else {
+                0.0
+            }
         });
         [sides.sum(), (self.area() - area_below(self, &at, level)).max(0.0)]
     }

@@ -25,12 +25,12 @@ use crate::attach::{
     Common, Level, Names, Places, RadialStiffness, Seated, SeatedClearance, SeatedPocket, SeatedSupport, dangling,
 };
 use crate::codes;
-use crate::description::{GearboxEntry, NetworkChoice, ThermalMode};
+use crate::description::{GearboxEntry, NetworkChoice, OF_MODELS, SameModels, ThermalMode};
 use crate::document::{Diagnostic, classify};
 use crate::hydraulics::Hydraulics;
 use crate::language::Language;
 use crate::loads::ShaftLoads;
-use crate::loss::Term;
+use crate::loss::{NoteBase, Term};
 use crate::machine::{self, Contained, Machine};
 use crate::mechanism::auxiliary::Auxiliary;
 use crate::mechanism::bearing::Bearing;
@@ -42,7 +42,7 @@ use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::mechanism::seal::Seal;
 use crate::mechanism::worm_mesh::{Described, WormMesh, WormPart};
 use crate::mechanism::{Component as _, Mechanism, ModelRef};
-use crate::registry::{Build, Files, Memory};
+use crate::registry::{Build, Files, Instance, Memory};
 use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
 use crate::thermal::network::{Around, Network};
@@ -125,7 +125,7 @@ impl Transmission {
         let (instances, cells) = build.finish();
         warnings.extend(instances.iter().flat_map(|instance| instance.doubts.iter().cloned()));
         let rated: Vec<RatedSupport> = models.components.iter().filter_map(rated).collect();
-        let parts = in_document_order(resolved, models.parts);
+        let parts = in_document_order(resolved, models.parts, &mut memory);
         if let Some(network) = &mut network {
             warnings.extend(network.warnings());
             network.set_heat(heat_of(&parts, &models.meshes, &frame.nodes));
@@ -149,7 +149,7 @@ impl Transmission {
             drags: models.drags,
             transfers: models.transfers,
             components: models.components,
-            limited: limited(&instances, &parts, (&rated, &pairs), (supports, cells)),
+            limited: limited(&instances, &parts, (&rated, &pairs), (supports, cells), &mut memory),
             parts,
             instances,
             cells: cells + rated.len() + pairs.iter().map(BearingPair::cells).sum::<usize>(),
@@ -194,7 +194,27 @@ fn pairs(
     pairs
 }
 
-fn in_document_order(resolved: &Resolved, mut parts: Vec<PartInfo>) -> Vec<PartInfo> {
+/// The parts in the order of the document, which other numbers do not change.
+fn in_document_order(resolved: &Resolved, parts: Vec<PartInfo>, memory: &mut Memory) -> Vec<PartInfo> {
+    let known = memory.get::<RanksOfParts>(RANKS);
+    let known = known.filter(|(paths, _)| paths.iter().eq(parts.iter().map(|part| &part.path)));
+    let ranks = known.map_or_else(|| ranks(resolved, &parts), |(_, ranks)| ranks.clone());
+    if known.is_none() {
+        let paths: Vec<String> = parts.iter().map(|part| part.path.clone()).collect();
+        memory.keep(RANKS, (paths, ranks.clone()));
+    }
+    let mut ranked: Vec<((usize, usize), PartInfo)> = ranks.into_iter().zip(parts).collect();
+    ranked.sort_by_key(|(rank, _)| *rank);
+    ranked.into_iter().map(|(_, part)| part).collect()
+}
+
+/// Paths of the parts as built, and by what they are sorted.
+type RanksOfParts = (Vec<String>, Vec<(usize, usize)>);
+
+/// Key of the ranks of the parts in the memory of builds.
+const RANKS: &str = "ranks of parts";
+
+fn ranks(resolved: &Resolved, parts: &[PartInfo]) -> Vec<(usize, usize)> {
     let sections = resolved.value.as_object().into_iter().flatten();
     let places: Vec<HashMap<&str, usize>> = sections
         .clone()
@@ -204,34 +224,44 @@ fn in_document_order(resolved: &Resolved, mut parts: Vec<PartInfo>) -> Vec<PartI
         })
         .collect();
     let numbers: HashMap<&str, usize> = sections.enumerate().map(|(i, (name, _))| (name.as_str(), i)).collect();
-    parts.sort_by_cached_key(|part| document_order(&numbers, &places, &part.path));
-    parts
+    let rank = |part: &PartInfo| document_order(&numbers, &places, &part.path);
+    parts.iter().map(rank).collect()
 }
 
-/// As [`Transmission::limited`]; the cells of rated supports follow those of the models, and those of pairs with springs these.
+/// As [`Transmission::limited`], which follows from where the notes are; the cells of rated supports follow those of the models, and those of
+/// pairs with springs these.
 fn limited(
-    instances: &[crate::registry::Instance],
+    instances: &[Instance],
     parts: &[PartInfo],
     (rated, pairs): (&[RatedSupport], &[BearingPair]),
     (supports, cells): (&[SeatedSupport], usize),
-) -> std::sync::Arc<[(usize, usize)]> {
-    let mut list = Vec::new();
-    for instance in instances {
-        let first = instance.notes.limits();
-        let users = parts.iter().enumerate();
-        let users = users.filter(|(_, part)| (part.notes.limits()..part.notes.end()).contains(&first));
-        for (part, _) in users {
-            list.extend((first..first + instance.entry.limits.len()).map(|cell| (cell, part)));
-        }
-    }
-    let places: HashMap<&str, usize> = parts.iter().map(|part| part.path.as_str()).zip(0..).collect();
-    let noted = rated.iter().map(|rated| rated.support);
-    let noted = noted.chain(pairs.iter().flat_map(BearingPair::noted));
-    for (i, support) in noted.enumerate() {
-        let bearing = places.get(supports[support].path.as_str());
-        list.extend(bearing.map(|part| (cells + i, *part)));
-    }
-    list.into()
+    memory: &mut Memory,
+) -> Arc<[(usize, usize)]> {
+    let rated = rated.iter().map(|rated| rated.support);
+    let noted: Vec<usize> = rated.chain(pairs.iter().flat_map(BearingPair::noted)).collect();
+    let of_instances: Vec<NoteBase> = instances.iter().map(|instance| instance.notes).collect();
+    let of_parts: Vec<NoteBase> = parts.iter().map(|part| part.notes).collect();
+    memory.repeat(
+        "limited parts",
+        (of_instances, of_parts, noted, cells),
+        |(_, of_parts, noted, _)| {
+            let mut list = Vec::new();
+            for instance in instances {
+                let first = instance.notes.limits();
+                let users = of_parts.iter().enumerate();
+                let users = users.filter(|(_, notes)| (notes.limits()..notes.end()).contains(&first));
+                for (part, _) in users {
+                    list.extend((first..first + instance.entry.limits.len()).map(|cell| (cell, part)));
+                }
+            }
+            let places: HashMap<&str, usize> = parts.iter().map(|part| part.path.as_str()).zip(0..).collect();
+            for (i, support) in noted.iter().enumerate() {
+                let bearing = places.get(supports[*support].path.as_str());
+                list.extend(bearing.map(|part| (cells + i, *part)));
+            }
+            list.into()
+        },
+    )
 }
 
 impl Transmission {
@@ -300,11 +330,7 @@ impl Frame {
         let transfers = transfers::seats(&entry, &members, found, warnings);
         let nodes = NodeNames::new(&entry, found);
         classify(found, codes::NETWORK);
-        let described = members
-            .names
-            .iter()
-            .map(|shaft| described(&resolved.value, shaft))
-            .collect();
+        let described = described(&resolved.value, &members);
         Ok(Self {
             entry,
             members,
@@ -335,7 +361,9 @@ fn entry_again(language: &Language, document: &Value, memory: &mut Memory) -> Re
         let (section, id) = path.split_once('.').unwrap_or((path, ""));
         // The sections of components are read where they are placed.
         if !language.registry().sections().any(|(_, known)| known.name == section) {
-            entry.read_again(document, section, id)?;
+            let is_same = |key: &&str| memory.is_same_value(&[path, ".", key].concat());
+            let same = SameModels(OF_MODELS.iter().all(is_same));
+            entry.read_again(document, (section, id), same)?;
         }
     }
     Ok(entry)
@@ -844,7 +872,7 @@ fn place(
                     let factor = value.get("loss_factor").and_then(serde_json::Value::as_f64);
                     let loss_factor = factor.unwrap_or(1.0);
                     parts.push(PartInfo {
-                        path: format!("{}.{id}", section.name),
+                        path: names.path().to_owned(),
                         mechanism: mechanism.key,
                         kind: PartKind::Component(components.len()),
                         count,
@@ -921,7 +949,7 @@ fn mesh_models(
         });
         let part = part.with_flanks(flanks.map(Option::unwrap_or_default), written.misalignment);
         let part = build.part_again(&seat.path, part.with_oil(oil.and_then(|oil| oils.lubricant(oil))));
-        match build.slot_at::<GearMesh>(&format!("{}.model", seat.path), &part, &choice.value) {
+        match build.slot_at::<GearMesh>(&[&seat.path, ".model"].concat(), &part, &choice.value) {
             Ok(model) => {
                 parts.push(PartInfo {
                     path: seat.path.clone(),
@@ -1050,7 +1078,7 @@ fn bevel_law(
     let part = build.part_again(&seat.path, BevelPart::new(pair, surfaces, oil.as_ref()));
     let none = ModelRef::<BevelMesh>::new("none".into());
     let choice = written.model.as_ref().unwrap_or(&none);
-    let model = build.slot_at::<BevelMesh>(&format!("{}.model", seat.path), &part, &choice.value)?;
+    let model = build.slot_at::<BevelMesh>(&[&seat.path, ".model"].concat(), &part, &choice.value)?;
     Ok(Some((BevelMesh::KEY, MeshLaw::Bevel { part, model })))
 }
 
@@ -1080,7 +1108,7 @@ fn worm_law(
     let part = build.part_again(&seat.path, part);
     let none = ModelRef::<WormMesh>::new("none".into());
     let choice = written.model.as_ref().unwrap_or(&none);
-    let model = build.slot_at::<WormMesh>(&format!("{}.model", seat.path), &part, &choice.value)?;
+    let model = build.slot_at::<WormMesh>(&[&seat.path, ".model"].concat(), &part, &choice.value)?;
     Ok(Some((WormMesh::KEY, MeshLaw::Worm { part, model })))
 }
 
@@ -1113,20 +1141,22 @@ fn crossed_helical_law(
     let part = build.part_again(&seat.path, part);
     let none = ModelRef::<CrossedHelicalMesh>::new("none".into());
     let choice = written.model.as_ref().unwrap_or(&none);
-    let model = build.slot_at::<CrossedHelicalMesh>(&format!("{}.model", seat.path), &part, &choice.value)?;
+    let model = build.slot_at::<CrossedHelicalMesh>(&[&seat.path, ".model"].concat(), &part, &choice.value)?;
     Ok(Some((CrossedHelicalMesh::KEY, MeshLaw::CrossedHelical { part, model })))
 }
 
-/// What the sections of a resolved document describe on a shaft beside its gears.
-fn described(resolved: &Value, shaft: &str) -> Described {
-    let has = |section: &str| {
-        let entries = resolved.get(section).and_then(Value::as_object);
-        entries.is_some_and(|entries| entries.values().any(|own| own["shaft"] == shaft))
+/// What the sections of a resolved document describe on each member beside gears.
+fn described(resolved: &Value, members: &Members) -> Vec<Described> {
+    let shafts = |section: &str| -> Vec<&str> {
+        let entries = resolved.get(section).and_then(Value::as_object).into_iter().flatten();
+        entries.filter_map(|(_, own)| own["shaft"].as_str()).collect()
     };
-    Described {
-        bearings: has(Bearing::SECTION),
-        seals: has(Seal::SECTION),
-    }
+    let [bearings, seals] = [Bearing::SECTION, Seal::SECTION].map(shafts);
+    let described = |shaft: &String| Described {
+        bearings: bearings.contains(&shaft.as_str()),
+        seals: seals.contains(&shaft.as_str()),
+    };
+    members.names.iter().map(described).collect()
 }
 
 /// Bearings whose radial stiffness follows from a load: number of the support, load and stiffness.

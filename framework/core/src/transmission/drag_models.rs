@@ -95,10 +95,15 @@ impl Drags<'_, '_, '_> {
         let written = &self.entry.gears.0[i].1;
         let revolves = mesh.carrier.is_some_and(|c| c != gear.member) && is_planet(self.entry, &gear.id);
         let body = body_of_gear(gear, i, mesh)?;
+        let path = ["gears.", &gear.id].concat();
         Some(Place {
             scope: Scope::Gear,
+            part: (self.build).part_again(
+                &path,
+                part(self.entry, written.clearance, self.oils.filled(), body, None),
+            ),
             seat: DragSeat {
-                path: format!("gears.{}", gear.id),
+                path,
                 members: [gear.member, gear.member],
                 gears: [i, i],
                 pair: false,
@@ -107,10 +112,6 @@ impl Drags<'_, '_, '_> {
                 mates: [mates(i, self.meshes), Vec::new()],
                 count: if revolves { mesh.count } else { 1.0 },
             },
-            part: (self.build).part_again(
-                &format!("gears.{}", gear.id),
-                part(self.entry, written.clearance, self.oils.filled(), body, None),
-            ),
             common: Common {
                 lubricant: written.lubricant.clone(),
                 temperature_offset: written.temperature_offset,
@@ -153,7 +154,7 @@ impl Drags<'_, '_, '_> {
     /// Builds the models in the slots of a place.
     fn add(&mut self, slots: Option<&NamedSlots<GearDrag>>, place: &Place) {
         for (slot, choice) in slots.into_iter().flat_map(|s| s.0.iter()) {
-            let path = format!("{}.drag.{slot}", place.seat.path);
+            let path = [&place.seat.path, ".drag.", slot].concat();
             let value = &choice.value;
             let name = value.as_str().or_else(|| value["type"].as_str()).unwrap_or("none");
             if name == "none" {

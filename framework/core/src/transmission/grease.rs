@@ -25,6 +25,9 @@ fn text<'a>(value: &'a Value, key: &str) -> Option<&'a str> {
 /// Reports levels of greases, and bearings that have a grease as their oil.
 pub(super) fn faults(document: &Value, entry: &GearboxEntry) -> Vec<Diagnostic> {
     let mut found = Vec::new();
+    if !entry.has_grease() {
+        return found;
+    }
     let mut report = |path: String, message: String, help: &str| {
         found.push(Diagnostic::error(path, message).help(help).code(codes::LUBRICANT));
     };
@@ -83,7 +86,9 @@ pub(super) fn doubts(
             found.extend(in_oil(id, value, &part, members, oils));
         }
     }
-    of_gears(entry, gears, oils, &mut found);
+    if entry.has_grease() {
+        of_gears(entry, gears, oils, &mut found);
+    }
     found
 }
 

@@ -173,6 +173,8 @@ pub(crate) struct OilNumbers<'a> {
     pub inside: Option<Inside>,
     /// Volume of the sump, if known. \[m3\]
     volume: Option<f64>,
+    /// Share of the inside that it fills, if known. \[-\]
+    share: Option<f64>,
     /// What determines levels from volumes, once the drag models are built.
     pub sump: Option<Sump>,
     /// Axis of each member, and the radius of its orbit.
@@ -252,6 +254,7 @@ impl<'a> OilNumbers<'a> {
             rest: None,
             inside: inside.flatten(),
             volume: None,
+            share: None,
             sump: None,
             lubricants,
             spots: Vec::new(),
@@ -264,6 +267,10 @@ impl<'a> OilNumbers<'a> {
         };
         if let Some(oil) = oil {
             oils.settle(oil, entry.thermal.oil);
+            oils.share = oils.inside.as_ref().zip(oils.rest).map(|(inside, rest)| {
+                let space = &inside.space;
+                space.volume(rest)[0] / space.inside()
+            });
         }
         oils
     }
@@ -401,11 +408,7 @@ impl<'a> OilNumbers<'a> {
 
     /// Volume of the oil, and the share of the inside of the housing that it fills, if they are known. \[m3 and -\]
     pub fn filled(&self) -> [Option<f64>; 2] {
-        let share = self.inside.as_ref().zip(self.rest).map(|(inside, rest)| {
-            let space = &inside.space;
-            space.volume(rest)[0] / space.inside()
-        });
-        [self.volume, share]
+        [self.volume, self.share]
     }
 
     /// The lubricant of an oil; `None` if a lubricant has a fault that was reported.

@@ -577,17 +577,18 @@ pub(crate) fn load_factors(
     found: &mut Vec<Diagnostic>,
 ) -> Vec<LoadFactors> {
     let names: Vec<&str> = ports.iter().map(|p| p.name.as_str()).collect();
-    let mut read = |path: String, factor: &Factor| match factor {
+    let mut read = |support: &str, key: &str, factor: &Factor| match factor {
         Factor::Constant(factor) => LoadFactor::Constant(*factor),
         Factor::Over(over) => {
             let port = names.iter().position(|n| *n == over.port);
             if port.is_none() {
-                found.push(dangling(&format!("{path}.port"), "port", &over.port, &names));
+                let path = format!("{support}.{key}.port");
+                found.push(dangling(&path, "port", &over.port, &names));
             }
             if over.torques.len() != over.factors.len() || over.torques.windows(2).any(|w| w[1] <= w[0]) {
                 found.push(
                     Diagnostic::error(
-                        path,
+                        format!("{support}.{key}"),
                         "the numbers of torques and factors differ, or torques do not increase",
                     )
                     .help("state increasing torques and one factor for each"),
@@ -604,8 +605,8 @@ pub(crate) fn load_factors(
     let factors: Vec<LoadFactors> = supports
         .iter()
         .map(|s| LoadFactors {
-            radial: read(format!("{}.radial_factor", s.path), &s.place.radial_factor),
-            axial: read(format!("{}.axial_factor", s.path), &s.place.axial_factor),
+            radial: read(&s.path, "radial_factor", &s.place.radial_factor),
+            axial: read(&s.path, "axial_factor", &s.place.axial_factor),
         })
         .collect();
     let one = |factor: &LoadFactor| matches!(factor, LoadFactor::Constant(factor) if *factor == 1.0);

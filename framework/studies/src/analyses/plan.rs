@@ -15,6 +15,11 @@ pub trait Plan {
     /// What is computed, in the order in which it is done.
     fn work(&self) -> Vec<Work>;
 
+    /// How other values of each varied quantity get into the gearbox of a sample; empty without samples.
+    fn samples(&self, _cx: &Planner<'_>) -> Vec<BuiltAgain> {
+        Vec::new()
+    }
+
     /// What is wrong without stopping the rest: `check` refuses it, `run` computes the rest and then fails.
     fn into_failures(self) -> Vec<Findings>
     where
@@ -70,6 +75,37 @@ impl fmt::Display for Work {
             _ => "s",
         };
         write!(f, "{}: {most}{} {what}{plural}{rest}", self.of, self.count)
+    }
+}
+
+/// What is built again for another value of a varied quantity.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BuiltAgain {
+    /// Model set.
+    pub of: String,
+    /// The varied quantity.
+    pub quantity: String,
+    /// Paths of the models that are built again: none if the value is set in what was built before. Absent: everything is.
+    pub models: Option<Vec<String>>,
+}
+
+impl fmt::Display for BuiltAgain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: another `{}` ", self.of, self.quantity)?;
+        let Some(models) = &self.models else {
+            return f.write_str("builds the whole gearbox again");
+        };
+        let names: Vec<&str> = models
+            .iter()
+            .map(|path| path.strip_suffix(".model").unwrap_or(path))
+            .collect();
+        match &names[..] {
+            [] => f.write_str("is set in the built models"),
+            [first, .., last] if names.len() > 4 => {
+                write!(f, "builds {} models again: {first} ... {last}", names.len())
+            }
+            _ => write!(f, "builds again: {}", names.join(", ")),
+        }
     }
 }
 

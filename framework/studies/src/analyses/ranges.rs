@@ -3,9 +3,10 @@
 use crate::codes;
 use crate::study::RangeEntry;
 use crate::varied::Varied;
+use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
-use super::{Built, Planner, Stopped};
+use super::{Built, BuiltAgain, Planner, Stopped};
 
 /// A varied quantity with its range, in the unit of the path.
 pub struct Range {
@@ -98,6 +99,25 @@ impl Range {
         let [low, high] = self.ends;
         (low + share * (high - low)).clamp(low, high)
     }
+}
+
+/// What is built again when each of these leaves one end of its range for the other.
+pub fn built_again<'r>(
+    cx: &Planner<'_>,
+    b: &Built<'_>,
+    ranges: impl IntoIterator<Item = &'r Range>,
+) -> Vec<BuiltAgain> {
+    let variants = Variants::new(cx.language, b.gearbox, cx.study.choice(b.set()));
+    let of = |range: &Range| {
+        let [first, second] = range.ends.map(|end| range.varied.overrides(end).collect::<Vec<_>>());
+        BuiltAgain {
+            of: b.name.clone(),
+            quantity: range.varied.pattern.clone(),
+            // A value with which the gearbox cannot be built is for the samples to report.
+            models: variants.built_again([&first, &second]).ok().flatten(),
+        }
+    };
+    ranges.into_iter().map(of).collect()
 }
 
 /// A varied coefficient of a formula.

@@ -20,9 +20,9 @@ pub use outputs::OutputKind;
 
 use self::outputs::Outputs;
 use super::axes::grid_axes;
-use super::ranges::{Range, once};
+use super::ranges::{Range, built_again, once};
 use super::trial::{Left, Trial, left};
-use super::{Analysis, Built, Engine, JobsWithin, Plan, Planner, Run, Stopped, Work};
+use super::{Analysis, Built, BuiltAgain, Engine, JobsWithin, Plan, Planner, Run, Stopped, Work};
 use crate::points::{Points, notes};
 use crate::register_analysis;
 use crate::study::{Grid, NameOr, ParameterKey, RangeEntry, Uses, Write};
@@ -118,6 +118,11 @@ impl Plan for SensitivityPlan<'_> {
             Work::new(set.run.label(), "point", count)
         };
         self.0.iter().map(work).collect()
+    }
+
+    fn samples(&self, cx: &Planner<'_>) -> Vec<BuiltAgain> {
+        let of_set = |set: &SensitivityOfOne<'_>| built_again(cx, &set.run.built, &set.ranges);
+        self.0.iter().flat_map(of_set).collect()
     }
 }
 

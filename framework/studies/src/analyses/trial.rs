@@ -100,13 +100,15 @@ impl<'a> Trial<'a> {
 /// The stated ranges that a solved trial left.
 pub fn left(transmission: &Transmission, seen: &[Extent]) -> impl Iterator<Item = (String, String)> {
     // Ranges that are kept need no words, which take longer than the points of a trial.
-    let outside: Vec<Extent> = seen
-        .iter()
-        .copied()
-        .map(|seen| if seen.outside > 0 { seen } else { Extent::EMPTY })
-        .collect();
-    let left = notes(transmission, &outside).into_iter();
-    left.map(|n| (n.path, n.name.to_owned()))
+    let any = seen.iter().any(|seen| seen.outside > 0);
+    let notes = any.then(|| {
+        let outside = seen.iter().copied();
+        let outside: Vec<Extent> = outside
+            .map(|seen| if seen.outside > 0 { seen } else { Extent::EMPTY })
+            .collect();
+        notes(transmission, &outside)
+    });
+    notes.into_iter().flatten().map(|n| (n.path, n.name.to_owned()))
 }
 
 /// Why a point has no loss.

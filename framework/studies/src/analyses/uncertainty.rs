@@ -6,9 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::model_error::{ModelErrorEntry, losses_of_parts};
-use super::ranges::{PublishedCoefficient, published};
+use super::ranges::{PublishedCoefficient, built_again, published};
 use super::trial::Left;
-use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
+use super::{Analysis, BuiltAgain, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
 use crate::analyses::axes::grid_axes;
 use crate::analyses::inputs::Input;
 use crate::codes;
@@ -185,6 +185,14 @@ impl Plan for UncertaintyPlan<'_> {
     fn work(&self) -> Vec<Work> {
         let work = |run: &Run<'_>| Work::new(run.label(), "point", (self.samples + 1) * run.points.field.len());
         self.runs.iter().map(work).collect()
+    }
+
+    fn samples(&self, cx: &Planner<'_>) -> Vec<BuiltAgain> {
+        let sets = self.runs.iter().zip(&self.inputs);
+        let of_set = |(run, inputs): (&Run<'_>, &Vec<Input>)| {
+            built_again(cx, &run.built, inputs.iter().map(|input| &input.range))
+        };
+        sets.flat_map(of_set).collect()
     }
 }
 

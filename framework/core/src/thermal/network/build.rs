@@ -202,10 +202,11 @@ fn law(
     let law = match (link.conductance, &link.model) {
         (Some(given), None) => Law::Given(given),
         (None, Some(choice)) => {
-            let part = Arc::new(HeatLinkPart {
+            let part = HeatLinkPart {
                 housing: Some(*around.housing),
                 gear: gear.flatten().filter(|g| g.diameters[0] > 0.0).map(shape),
-            });
+            };
+            let part = build.part_again(path, part);
             match build.slot_at::<HeatLink>(&format!("{path}.model"), &part, &choice.value) {
                 Ok(model) => Law::Model(Box::new(Lawful {
                     supply: build.supply(&model),
