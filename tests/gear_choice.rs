@@ -471,6 +471,19 @@ fn each_gear_is_evaluated_once_where_its_temperatures_are_those_of_the_interval(
             assert_eq!(stretch.heats, alone.heats, "{i}");
             assert_eq!(stretch.status, alone.status, "{i}");
         }
+        if !spectrum {
+            // Nothing is noted of a gear that is not chosen.
+            let with_gears = |(interval, stretch): (&Interval, &gearloss_studies::points::Stretch)| {
+                let mut interval = interval.clone();
+                interval.given.gear = Some(t.states()[stretch.gear].name.clone());
+                interval
+            };
+            let intervals: Vec<Interval> = intervals.iter().zip(&best.stretches).map(with_gears).collect();
+            let ride = ride(&t, (&vehicle, &intervals), "first");
+            let stated = drive(&t, &ride, &|_| true).unwrap().unwrap();
+            assert_eq!(best.seen, stated.seen);
+            assert_eq!(best.lost_outside, stated.lost_outside);
+        }
         // Standing intervals are evaluated once. At an equilibrium a demand that regeneration may limit is solved again with its limit.
         let is_standing = |interval: &&Interval| interval.demand == Demand::Rest;
         let standing = intervals.iter().filter(is_standing).count();

@@ -101,7 +101,7 @@ impl Transmission {
     /// Evaluates points at temperatures of each, together where that is faster, each with the numbers that it has as a single one. They
     /// have the power flow of the first. \[degC\]
     ///
-    /// Each is a copy, or why there are no losses.
+    /// Each is a copy, or why there are no losses. Points that are evaluated together have noted the range of all of them.
     pub fn snapshots<'t>(
         &self,
         case: &Case,

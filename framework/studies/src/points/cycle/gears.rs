@@ -490,7 +490,13 @@ impl<'a> Chooser<'a> {
             };
             let points: Vec<Point<'_>> = alike.iter().map(point).collect();
             let warm = |k: usize| temperatures(asked[alike[k]].0);
-            let solved = t.snapshots(case, &points, &warm, self.noting, scratch);
+            let solved = match self.noting {
+                Noting::Muted => t.snapshots(case, &points, &warm, Noting::Muted, scratch),
+                // Points side by side note the range of all of them, also of those whose gear is not chosen.
+                noting => (0..points.len())
+                    .map(|n| t.snapshot(case, &points[n], warm(n), noting, scratch))
+                    .collect(),
+            };
             for (n, (k, point)) in alike.iter().zip(solved).enumerate() {
                 found[*k] = point.ok().map(|point| self.read(t, asked[*k].1, point, warm(n)));
             }
@@ -689,7 +695,7 @@ pub(super) fn drive_optimum(
     progress: &dyn Fn(usize) -> bool,
 ) -> Result<Option<Driven>, Vec<Diagnostic>> {
     let mut cases = Cases::new(t, ride)?;
-    let Some(mut chooser) = Chooser::new(&mut cases)? else {
+    let Some(chooser) = Chooser::new(&mut cases)?.map(Chooser::muted) else {
         return drive_through(t, ride, None, progress);
     };
     let Some(by_rule) = drive_through(t, ride, None, progress)? else {
@@ -730,8 +736,7 @@ pub(super) fn drive_optimum(
             .filter(|stretch| stretch.shift.is_some())
             .count(),
     };
-    chooser.given = Some(best);
-    let driven = drive_through(t, ride, chooser.given, &|_| progress(0))?;
+    let driven = drive_through(t, ride, Some(best), &|_| progress(0))?;
     Ok(driven.map(|driven| Driven {
         optimum: Some(optimum),
         evaluations: driven.evaluations + evaluations,
@@ -745,6 +750,12 @@ impl Chooser<'_> {
         self.given = given;
         self
     }
+
+    /// Without notes: for a comparison alone.
+    fn muted(mut self) -> Self {
+        self.noting = Noting::Muted;
+        self
+    }
 }
 
 /// What the intervals of a ride draw in the gears of its choice at given temperatures of the oil; with several gears, in the first one.
@@ -753,7 +764,7 @@ impl Chooser<'_> {
 /// If no gear can be chosen, or a temperature is not given.
 pub fn offers_of(t: &Transmission, ride: &Ride<'_>) -> Result<Vec<Offer>, Vec<Diagnostic>> {
     let mut cases = Cases::new(t, ride)?;
-    let Some(chooser) = Chooser::new(&mut cases)? else {
+    let Some(chooser) = Chooser::new(&mut cases)?.map(Chooser::muted) else {
         return Ok(Vec::new());
     };
     let mut all = Vec::with_capacity(ride.intervals.len());
