@@ -52,6 +52,24 @@ fn rule(saving: f64, dwell: f64) -> ChosenBy {
     ChosenBy::Rule(Rule { saving, dwell })
 }
 
+/// A ride in a gear.
+fn ride<'a>(t: &Transmission, (vehicle, intervals): (&'a Vehicle, &'a [Interval]), gear: &'a str) -> Ride<'a> {
+    Ride {
+        intervals,
+        port: "input",
+        vehicle: Some(vehicle),
+        gear,
+        choice: None,
+        oil: OilTemperature::from_conditions(t, None),
+        spectrum: false,
+        start: Some(25.0),
+        ambient: Some(20.0),
+        scheme: Scheme::default(),
+        step: StepSize::Fixed(1.0),
+        flow: PowerFlow::Real,
+    }
+}
+
 /// A cycle in a gear, or with a choice and a machine.
 fn driven(
     t: &Transmission,
@@ -60,18 +78,8 @@ fn driven(
     choice: Option<(&GearChoice, Option<&Machine>)>,
 ) -> Driven {
     let ride = Ride {
-        intervals,
-        port: "input",
-        vehicle: Some(vehicle),
-        gear,
         choice: choice.map(|(choice, machine)| Choosing { choice, machine }),
-        oil: OilTemperature::from_conditions(t, None),
-        spectrum: false,
-        start: Some(25.0),
-        ambient: Some(20.0),
-        scheme: Scheme::default(),
-        step: StepSize::Fixed(1.0),
-        flow: PowerFlow::Real,
+        ..ride(t, (vehicle, intervals), gear)
     };
     let driven = drive(t, &ride, &|_| true).unwrap().unwrap();
     assert!(driven.broken.is_none());
@@ -424,4 +432,170 @@ fn what_is_wrong_is_refused_with_its_place() {
         assert!(!ran.succeeded, "{gear}");
         assert!(ran.text.contains(message), "{gear}: {}", ran.text);
     }
+}
+
+/// Without the time of a thermal network the temperatures of an interval in a gear are those of its simulation: at given temperatures and at
+/// those of an equilibrium, the evaluation that chooses a gear is the interval, to the bit.
+#[test]
+fn each_gear_is_evaluated_once_where_its_temperatures_are_those_of_the_interval() {
+    let language = language();
+    let vehicle = car(true);
+    let network = [
+        ("housing.outside", json!({ "box": ["400 mm", "250 mm", "300 mm"] })),
+        ("thermal", json!({ "mode": "network", "network": "auto" })),
+    ];
+    // Loads of a spectrum are each at the steady state of the network.
+    for (overrides, spectrum, part) in [
+        (&network[..0], false, [20.0, 320.0]),
+        (&network[..], true, [20.0, 80.0]),
+    ] {
+        let t = two_speed_with(&language, None, overrides);
+        let intervals = intervals("nycc", &vehicle, Some(part));
+        let by = choice(rule(0.0, 0.0));
+        let run = |gear: &str, choice: Option<&GearChoice>| {
+            let ride = Ride {
+                choice: choice.map(|choice| Choosing { choice, machine: None }),
+                spectrum,
+                ..ride(&t, (&vehicle, &intervals), gear)
+            };
+            drive(&t, &ride, &|_| true).unwrap().unwrap()
+        };
+        let both = ["first", "second"].map(|gear| run(gear, None));
+        let best = run("first", Some(&by));
+        assert!(best.broken.is_none() && best.stretches.len() == intervals.len());
+        for (i, stretch) in best.stretches.iter().enumerate() {
+            let alone = &both[stretch.gear.min(1)].stretches[i];
+            // Equal numbers have equal bits, except the sign of zero.
+            assert_eq!(stretch.temperatures, alone.temperatures, "{i}");
+            assert_eq!(stretch.torque, alone.torque, "{i}");
+            assert_eq!(stretch.heats, alone.heats, "{i}");
+            assert_eq!(stretch.status, alone.status, "{i}");
+        }
+        if !spectrum {
+            // Nothing is noted of a gear that is not chosen.
+            let with_gears = |(interval, stretch): (&Interval, &gearloss_studies::points::Stretch)| {
+                let mut interval = interval.clone();
+                interval.given.gear = Some(t.states()[stretch.gear].name.clone());
+                interval
+            };
+            let intervals: Vec<Interval> = intervals.iter().zip(&best.stretches).map(with_gears).collect();
+            let ride = ride(&t, (&vehicle, &intervals), "first");
+            let stated = drive(&t, &ride, &|_| true).unwrap().unwrap();
+            assert_eq!(best.seen, stated.seen);
+            assert_eq!(best.lost_outside, stated.lost_outside);
+        }
+        // Standing intervals are evaluated once. At an equilibrium a demand that regeneration may limit is solved again with its limit.
+        let is_standing = |interval: &&Interval| interval.demand == Demand::Rest;
+        let standing = intervals.iter().filter(is_standing).count();
+        let sum = both[0].evaluations + both[1].evaluations;
+        if spectrum {
+            assert!(
+                best.evaluations as f64 <= 1.3 * sum as f64,
+                "{} of {sum}",
+                best.evaluations
+            );
+        } else {
+            assert!(best.evaluations <= sum - standing, "{} of {sum}", best.evaluations);
+            assert!(best.evaluations >= 2 * (intervals.len() - standing));
+        }
+    }
+}
+
+/// With a thermal network the choice adds one evaluation of each gear to the steps: less than another run.
+#[test]
+fn the_best_gear_costs_less_than_a_run_per_gear() {
+    let language = language();
+    let overrides = [
+        ("housing.outside", json!({ "box": ["400 mm", "250 mm", "300 mm"] })),
+        ("thermal", json!({ "mode": "network", "network": "auto" })),
+    ];
+    let t = two_speed_with(&language, None, &overrides);
+    let map = machine();
+    let vehicle = car(true);
+    let intervals = intervals("wltc_class3b", &vehicle, None);
+    let evaluations = |gear: &str, choice: Option<(&GearChoice, Option<&Machine>)>| {
+        driven(&t, (&vehicle, &intervals), gear, choice).evaluations
+    };
+    let sum = evaluations("first", None) + evaluations("second", None);
+    let by = choice(rule(200.0, 3.0));
+    let best = evaluations("first", Some((&by, Some(&map))));
+    assert!(best as f64 <= 1.3 * sum as f64, "{best} of {sum}");
+}
+
+/// Whatever simulates cycles chooses the gears of the cycle alone: sweeps, comparisons, searches, oils, bands.
+#[test]
+fn every_analysis_of_cycles_chooses_the_same_gears() {
+    let oil = "lubricants.sump.viscosity.kv100";
+    for gear in [
+        "best",
+        "{ choose: best, saving: 100 W, dwell: 2 s }",
+        "{ choose: optimum }",
+    ] {
+        let ride = format!("gear: {gear}, cycles: [c]");
+        let beside = format!("gear: {gear}, drive: {{ cycles: [c] }}");
+        let analyses = format!(
+            "analyses:
+  swept: {{ type: sweep, gearbox: box, {beside}, path: {oil}, values: [6.4 mm2/s, 5 mm2/s] }}
+  compared: {{ type: compare, gearbox: box, {beside}, base: own, variants: {{ thin: {{ {oil}: 5 mm2/s }} }} }}
+  found: {{ type: optimise, gearbox: box, {ride}, variables: {{ oil: {{ path: {oil}, values: [6.4 mm2/s, 5 mm2/s] }} }} }}
+  oils: {{ type: fluid_sweep, gearbox: box, {ride}, kv100: [5 mm2/s, 6.4 mm2/s, 8 mm2/s], refine: false }}
+  thin: {{ type: cycle, {ride}, gearbox: thin }}
+  banded: {{ type: cycle, gearbox: box, {ride}, samples: 8, inputs: [{{ path: {oil}, from: 5 mm2/s, to: 6.4 mm2/s }}] }}
+  c: {{ type: cycle, gearbox: box, {ride} }}
+"
+        );
+        let text = study(gear, "{ shipped: nycc, start: 20 s, end: 120 s }", "");
+        let (head, _) = text.split_once("analyses:").unwrap();
+        let head = head.replace("gearboxes: { ", "gearboxes: { thin: thin.yaml, ");
+        let thin = format!(
+            "gearloss: gearbox/1\nextends: {}\nset: {{ {oil}: 5 mm2/s }}\n",
+            file("examples/two-speed-ev/gearbox.yaml").display()
+        );
+        let ran = run_texts(&(head + &analyses), &[("thin.yaml", &thin)]);
+        assert!(ran.succeeded, "{}", ran.text);
+        let net = |of: &Value| number(&of["consumption"]["consumption_kwh_per_100_km"]).to_bits();
+        let alone = ["c", "thin"].map(|name| ran.json(name)["cycles"][0].clone());
+        let [present, thin] = [net(&alone[0]), net(&alone[1])];
+        assert_ne!(present, thin);
+        let swept = ran.json("swept");
+        assert_eq!([net(&swept["cycles"][0]), net(&swept["cycles"][1])], [present, thin]);
+        let compared = &ran.json("compared")["comparisons"][0];
+        assert_eq!(net(compared), thin, "{compared}");
+        let gain = &ran.json("found")["gains"][0];
+        let of_search = |key: &str| number(&gain["consumption"][key]["consumption_kwh_per_100_km"]).to_bits();
+        assert_eq!(of_search("present"), present, "{gain}");
+        let least = f64::from_bits(present).min(f64::from_bits(thin));
+        assert_eq!(f64::from_bits(of_search("best")), least);
+        let oils = &ran.json("oils")["fluid_sweep"][0]["cycles"][0];
+        assert_eq!(net(&oils["present"]), present);
+        let least = oils["fluids"].as_array().unwrap().iter();
+        let least = least
+            .map(|fluid| f64::from_bits(net(fluid)))
+            .fold(f64::INFINITY, f64::min);
+        assert_eq!(number(&oils["least_consumption"]["consumption_kwh_per_100_km"]), least);
+        let banded = &ran.json("banded")["cycles"][0];
+        assert_eq!(net(banded), present);
+        let band = banded["bands"]["consumption_kwh_per_100_km"].as_array().unwrap();
+        let [low, high] = [0, 2].map(|i| number(&band[i]));
+        let ends = [present, thin].map(f64::from_bits);
+        assert!(
+            low >= ends[0].min(ends[1]) - 1e-9 && high <= ends[0].max(ends[1]) + 1e-9,
+            "{band:?} {ends:?}"
+        );
+        for gears in [banded, &alone[0]] {
+            assert_eq!(gears["gears_used"]["shifts"], alone[0]["gears_used"]["shifts"]);
+        }
+    }
+}
+
+/// Points have no time in which to shift.
+#[test]
+fn a_sweep_over_points_refuses_a_choice() {
+    let text = study("first", TOWN, "");
+    let (head, _) = text.split_once("analyses:").unwrap();
+    let oil = "path: lubricants.sump.viscosity.kv100, values: [5 mm2/s, 6 mm2/s]";
+    let analyses = format!("analyses: {{ s: {{ type: sweep, gear: best, {oil}, torque: 5 Nm, speed: 3000 rpm }} }}");
+    let ran = run_texts(&(head.to_owned() + &analyses), &[]);
+    assert!(!ran.succeeded);
+    assert!(ran.text.contains("gears are chosen in cycles and maps"), "{}", ran.text);
 }

@@ -252,6 +252,8 @@ analyses:
   other: { type: compare, grid: g, base: own, variants: { worse: { meshes.stage.loss_factor: 2 } }, quantity: system_efficiency, write: [json] }
   bands: { type: uncertainty, grid: g, inputs: [{ path: meshes.stage.loss_factor, from: 0.8, to: 1.2 }], samples: 8, write: [json, csv] }
   effects: { type: sensitivity, grid: g, parameters: [{ path: meshes.stage.loss_factor, from: 0.8, to: 1.2 }], write: [json] }
+  warm: { type: temperature_sweep, torque: 50 Nm, speed: 3000 rpm, oil_temperature: [40 degC, 60 degC], by: unit, write: [json] }
+  idle: { type: spin_loss, speed: 3000 rpm, by: unit, write: [json] }
 ";
     let ran = unit(
         "{ map: map.csv, inverter: { efficiency: 0.98 } }",
@@ -294,6 +296,21 @@ analyses:
     );
     close(&listed["points"][0]["losses_w"][2], inverter);
     close(&listed["points"][0]["limit_values"]["system"], efficiency);
+    // Shares of the unit in the other breakdowns: at a temperature, and without torque.
+    let of_unit = |analysis: &str| ran.json(analysis)["breakdowns"][0].clone();
+    for analysis in ["bars", "warm", "idle"] {
+        assert_eq!(of_unit(analysis)["shares"], listed["shares"], "{analysis}");
+    }
+    close(&of_unit("warm")["points"][1]["losses_w"][1], machine);
+    let at_rest = 0.5
+        * [w / 3.0, w / 0.6]
+            .map(|w| 40.0 + 0.5 * w + 4e-4 * w * w)
+            .iter()
+            .sum::<f64>();
+    close(&of_unit("idle")["points"][0]["losses_w"][1], at_rest);
+    for words in ["DC power W", "unit loss W", "system efficiency in %"] {
+        assert!(ran.text.contains(words), "{words}: {}", ran.text);
+    }
     let swept = &ran.json("path")["sweep"][1]["points"];
     assert!(
         swept
@@ -486,4 +503,119 @@ fn paths_move_together_along_rows_in_bands_and_fits() {
         let ran = fit(rows);
         assert!(!ran.succeeded && ran.text.contains(words), "{rows}: {}", ran.text);
     }
+}
+
+/// Three intervals of the stage with a thermal network, whose coolant the inverter may heat.
+fn in_a_network(inverter: &str) -> Value {
+    let study = format!(
+        "gearloss: study/1
+gearboxes: {{ box: box.yaml }}
+cycles: {{ three: {{ file: three.csv, repeat: 20 }} }}
+vehicles:
+  car:
+    mass: 1500 kg
+    coast_down: {{ a: 100 N, b: 0 N s/m, c: 0.4 N s2/m2 }}
+    tyre_radius: 300 mm
+    rotating_mass_factor: 1.05
+{REGENERATION}
+    battery: {{ energy: 60 kWh, efficiency: 0.96, auxiliaries: 300 W }}
+analyses: {{ c: {{ type: cycle, cycles: [three], start: 20 degC, step: 2 s, write: [json] }} }}
+"
+    );
+    let gearbox = format!(
+        "{STAGE}
+machines: {{ motor: {{ efficiency: 0.92, rotor: rotor, stator: windings, inverter: {{ efficiency: 0.98{inverter} }} }} }}
+thermal:
+  mode: network
+  ambient: 20 degC
+  network:
+    nodes:
+      casing: {{ heat_capacity: 20000 J/K, gears: [pinion, wheel] }}
+      sump: {{ heat_capacity: 3000 J/K, oil: true }}
+      rotor: {{ heat_capacity: 2000 J/K }}
+      windings: {{ heat_capacity: 8000 J/K }}
+      coolant: {{ heat_capacity: 1500 J/K }}
+    links:
+      air: {{ between: [casing, ambient], conductance: 10 W/K }}
+      oil: {{ between: [casing, sump], conductance: 50 W/K }}
+      gap: {{ between: [rotor, windings], conductance: 5 W/K }}
+      seat: {{ between: [windings, casing], conductance: 80 W/K }}
+      plate: {{ between: [coolant, ambient], conductance: 40 W/K }}
+"
+    );
+    let ran = run_texts(&study, &[("box.yaml", &gearbox), ("three.csv", CYCLE)]);
+    assert!(ran.succeeded, "{}", ran.text);
+    ran.json("c")["cycles"][0].clone()
+}
+
+/// The heat of an inverter enters its node once: the balance closes with it, and what the battery supplies does not change.
+#[test]
+fn an_inverter_heats_its_node_and_is_counted_once() {
+    let (without, with) = (in_a_network(""), in_a_network(", node: coolant"));
+    let inverter = number(&with["machines"][0]["inverter_j"]);
+    assert!(inverter > 1e4, "{inverter}");
+    let heat = |duty: &Value, key: &str| number(&duty["heat"][key]);
+    for duty in [&without, &with] {
+        assert!(heat(duty, "residual_share") < 1e-9, "{}", duty["heat"]);
+        let consumption = &duty["consumption"];
+        assert!(number(&consumption["residual_share"]) < 1e-9, "{consumption}");
+        assert!(number(&consumption["interval_residual_share"]) < 1e-9, "{consumption}");
+        // Losses of gearbox and machine are heat in both; those of the inverter only with a node.
+        let own = number(&duty["energy"]["loss_j"]) + number(&duty["machines"][0]["loss_j"]);
+        let expected = own + if duty == &with { inverter } else { 0.0 };
+        assert!((heat(duty, "came_j") / expected - 1.0).abs() < 1e-9, "{}", duty["heat"]);
+    }
+    assert_eq!(with["consumption"], without["consumption"]);
+    let coolant = |duty: &Value| {
+        let nodes = duty["nodes"].as_array().unwrap();
+        let node = nodes.iter().find(|node| node["node"] == "coolant").unwrap();
+        number(&node["greatest_degc"])
+    };
+    assert!(
+        (coolant(&without) - 20.0).abs() < 1e-9 && coolant(&with) > 21.0,
+        "{}",
+        with["nodes"]
+    );
+}
+
+#[test]
+fn the_node_of_an_inverter_must_exist() {
+    let machine = "{ efficiency: 0.92, inverter: { efficiency: 0.98, node: coolnt } }";
+    let ran = unit(machine, REGENERATION, CYCLES);
+    assert!(!ran.succeeded);
+    assert!(
+        ran.text.contains("machines.motor.inverter.node") && ran.text.contains("coolnt"),
+        "{}",
+        ran.text
+    );
+}
+
+/// Where the oil reaches a temperature the unit is known as well.
+#[test]
+fn a_thermal_limit_states_the_unit() {
+    let study = "gearloss: study/1
+gearboxes: { box: box.yaml }
+analyses:
+  limit: { type: thermal_limit, temperature: [60 degC], torque: { from: 1 Nm, to: 41 Nm, step: 10 Nm }, speed: [3000 rpm], write: [json, csv] }
+";
+    let gearbox = format!(
+        "{STAGE}
+machines: {{ motor: {{ efficiency: 0.92, inverter: {{ efficiency: 0.98 }} }} }}
+thermal:
+  mode: balance
+  ambient: 20 degC
+  heat_dissipation: {{ air: {{ type: constant, alpha: 20 W/(m2 K), area: 2000 cm2 }} }}
+"
+    );
+    let ran = run_texts(study, &[("box.yaml", &gearbox)]);
+    assert!(ran.succeeded, "{}", ran.text);
+    let limit = ran.json("limit")["thermal_limits"][0]["limits"][0].clone();
+    // 4 W/K take 160 W, 3 % of the power of the shaft.
+    let torque = number(&limit["torque_nm"]);
+    let power = torque * 3000.0 * std::f64::consts::PI / 30.0;
+    assert!((0.03 * power / 160.0 - 1.0).abs() < 1e-3, "{limit}");
+    close(&limit["unit"]["dc_power_w"], power / 0.92 / 0.98);
+    close(&limit["unit"]["system_efficiency"], 0.97 * 0.92 * 0.98);
+    assert!(ran.csv("limit").lines().next().unwrap().contains("system_efficiency"));
+    assert!(ran.text.contains("DC power W"), "{}", ran.text);
 }

@@ -193,3 +193,42 @@ fn a_fault_of_a_template_has_its_file_and_line() {
     assert_eq!(code, Some(2));
     assert!(text.contains("faulty.html:2"), "{text}");
 }
+
+/// Results of analyses of one type have their titles before them, printed and in the report; that of a type of its own has none.
+#[test]
+fn results_of_analyses_of_one_type_are_told_apart_by_their_titles() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report-titles");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("box.yaml"), crate::drive_unit::STAGE).unwrap();
+    let study = "gearloss: study/1
+gearboxes: { box: box.yaml }
+conditions: { oil_temperature: 60 degC }
+answered_by: [slow, fast]
+analyses:
+  slow: { type: spin_loss, title: Idling in town, speed: 1000 rpm }
+  fast: { type: spin_loss, title: Idling on the motorway, speed: 5000 rpm }
+  bars: { type: breakdown, title: Under load, torque: 10 Nm, speed: 1000 rpm }
+";
+    std::fs::write(folder.join("study.yaml"), study).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_gearloss"))
+        .arg("run")
+        .arg(folder.join("study.yaml"))
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        output.status.success(),
+        "{text}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    for words in ["> slow     Idling in town: ", "> fast     Idling on the motorway: "] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert!(!text.contains("Under load: "), "{text}");
+    let page = std::fs::read_to_string(folder.join("results/report.html")).unwrap();
+    for title in ["Idling in town", "Idling on the motorway"] {
+        assert!(page.contains(&format!("<p data-words>{title}: ")), "{title}");
+        assert!(page.contains(&format!("{title}</a></li>")), "{title}");
+    }
+}

@@ -108,6 +108,14 @@ class Solution:
         """Power out of the DC link into the machines in W; `None` without machines."""
 
     @property
+    def machine_loss(self) -> float | None:
+        """Losses of the machines in W, with what their maps contain; `None` without machines."""
+
+    @property
+    def inverter_loss(self) -> float | None:
+        """Losses of inverters that are described apart in W; `None` without machines."""
+
+    @property
     def unit_loss(self) -> float | None:
         """Losses of gearbox, machines and inverters in W; `None` without machines."""
 

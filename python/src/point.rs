@@ -143,6 +143,12 @@ pub struct Solution {
     /// Power out of the DC link in W; `None` without machines.
     #[pyo3(get)]
     dc_power: Option<f64>,
+    /// Losses of the machines in W, with what their maps contain; `None` without machines.
+    #[pyo3(get)]
+    machine_loss: Option<f64>,
+    /// Losses of inverters that are described apart in W; `None` without machines.
+    #[pyo3(get)]
+    inverter_loss: Option<f64>,
     /// Losses of gearbox, machines and inverters in W; `None` without machines.
     #[pyo3(get)]
     unit_loss: Option<f64>,
@@ -167,6 +173,8 @@ impl Solution {
             balance: found.outcome().map(Outcome::name),
             status: solution.status().name(),
             dc_power: unit.map(|unit| unit.dc_power_w),
+            machine_loss: unit.map(|unit| unit.machine_loss_w),
+            inverter_loss: unit.map(|unit| unit.inverter_loss_w),
             unit_loss: unit.map(|unit| unit.unit_loss_w),
             system_efficiency: unit.and_then(|unit| unit.system_efficiency),
             watts: solution

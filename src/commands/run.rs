@@ -88,7 +88,7 @@ pub(crate) fn all(
         let start = Instant::now();
         match runner.attempt(name, analysis, out) {
             Ok(()) => {
-                let result = runner.in_section(|section| section.result());
+                let result = runner.in_section(|section| section.result_of_several());
                 shown.headline((width, name), &result.unwrap_or_default(), answers(name), start, out)?;
             }
             Err(failure) => {

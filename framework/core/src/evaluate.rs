@@ -23,7 +23,8 @@ pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
 use scratch::Models;
 pub use scratch::Scratch;
-pub(crate) use snapshot::{Asked, Snapshot};
+pub(crate) use snapshot::Asked;
+pub use snapshot::Snapshot;
 pub use solution::{PartLoss, PreloadAt, Solution, ToothForceAt};
 
 use crate::attach::{Oil, State};

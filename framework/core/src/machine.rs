@@ -40,6 +40,8 @@ pub struct Machine {
     pub only_in_network: bool,
     /// Nodes of rotor and stator in the thermal network.
     pub nodes: Option<[usize; 2]>,
+    /// Node in the thermal network that an inverter that is described apart heats.
+    pub inverter_node: Option<usize>,
     /// What its map contains besides the machine.
     pub contains: Vec<Contained>,
     pub(crate) rotor_share: RotorShare,
@@ -96,6 +98,7 @@ impl Machine {
             notes: map.notes.clone(),
             only_in_network: false,
             nodes: None,
+            inverter_node: None,
             contains: Vec::new(),
             rotor_share: RotorShare::default(),
             law: Law::Map(Arc::new(map)),

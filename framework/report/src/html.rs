@@ -63,6 +63,8 @@ pub struct Section {
     pub name: String,
     /// Title; the name if the study gives none.
     pub title: String,
+    /// The title that the study gives, if it has several analyses of this type, whose results are told apart by it.
+    pub which: Option<String>,
     /// Description of the analysis as a sentence.
     pub about: String,
     /// Note of the study on the analysis.
@@ -95,6 +97,14 @@ impl Section {
     pub fn result(&self) -> String {
         let first = self.headline.as_ref().or(self.verdicts.first());
         first.map_or_else(|| "done".to_owned(), String::clone)
+    }
+
+    /// The result beside those of other analyses.
+    pub fn result_of_several(&self) -> String {
+        match &self.which {
+            Some(which) => format!("{which}: {}", self.result()),
+            None => self.result(),
+        }
     }
 
     /// Adds the page of an outcome.

@@ -18,6 +18,7 @@ pub mod point;
 pub mod stated_ranges;
 pub mod tested;
 pub mod text;
+mod unit;
 pub mod validation;
 mod views;
 

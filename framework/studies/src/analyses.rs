@@ -415,7 +415,7 @@ impl JsonSchema for AnalysisEntry {
                 "properties".to_owned(),
                 serde_json::json!({
                     "type": { "type": "string", "const": kind.name },
-                    "title": { "type": "string", "description": "Title in the report; default: the name of the analysis." },
+                    "title": { "type": "string", "description": "Title in the report, also before the result where the study has several analyses of this type; default: the name of the analysis." },
                     "note": { "type": "string", "description": "Note in the report." },
                 }),
             );

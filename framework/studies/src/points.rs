@@ -27,7 +27,7 @@ pub use notes::{
     Note, STATIC_SAFETY, Stated, TotalLoss, WeakPoint, evidence, notes, notes_over_time, notes_with_shares,
 };
 pub use pieces::{MOST_IN_FLIGHT, Make, Numbered, Piece, solve_pieces, take_points};
-pub use prepared::{PreparedPoint, SolvedPoint};
+pub use prepared::{PreparedPoint, SolvedPoint, unit_of};
 pub use rows::{OnRig, Rows, SolvedRows};
 pub use sums::{SUMS, Sums, sum_of, sums};
 pub use temperature::{Found, OilTemperature};

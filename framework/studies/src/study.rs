@@ -309,8 +309,6 @@ impl<'a> Uses<'a> {
     pub(crate) fn riding(self, ride: Option<&'a RideEntry>) -> Self {
         let Some(ride) = ride else { return self };
         Self {
-            // Of cycles the best gear can be chosen.
-            gears: self.gears.into_iter().filter(|gear| *gear != BEST).collect(),
             cycles: &ride.cycles,
             vehicle: ride.vehicle.as_ref(),
             ..self

@@ -28,7 +28,7 @@ pub fn map(language: &Language, files: &SharedSource, of: &MapOf, progress: &dyn
     let outcome = StudyRun::new(language, &study).analysis_with("map", progress)?;
     let mut report = Report::default();
     if let Some(analysis) = study.entry.analyses.get("map") {
-        report.begin("map", analysis);
+        report.begin(&study.entry.analyses, "map", analysis);
     }
     let page = report.page("map", outcome.as_ref());
     let section = report.sections.last_mut();

@@ -60,7 +60,7 @@ pub fn run(
         if !wanted.is_empty() && !wanted.iter().any(|known| known == name) {
             continue;
         }
-        report.begin(name, analysis);
+        report.begin(&study.entry.analyses, name, analysis);
         let title = report.sections.last().map(|section| section.title.clone());
         listener.event(json!({ "event": "begin", "analysis": name, "title": title }));
         let progress = Reported {

@@ -152,6 +152,30 @@ register!(Auxiliary, "rotor", Rotor,
             values: &[("gap", "0.0258155 W")],
             ..SIX_DIGITS
         },
+        Check {
+            input: "{ model: { type: rotor, radius: 75 mm, gap: 0.8 mm, length: 134 mm, bore: smooth, face_clearance: 7.5 mm }, \
+                    at: { speed: 12000 rpm, temperature: 80 degC, eta: 8 mPa s, rho: 820 } }",
+            values: &[("gap", "57.9915 W"), ("faces", "14.9417 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: rotor, radius: 75 mm, gap: 0.8 mm, length: 134 mm, bore: slotted, face_clearance: 7.5 mm }, \
+                    at: { speed: 18000 rpm, temperature: 80 degC, eta: 8 mPa s, rho: 820 } }",
+            values: &[("gap", "549.333 W"), ("faces", "46.5002 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: rotor, radius: 75 mm, gap: 0.8 mm, length: 134 mm, bore: smooth }, \
+                    at: { speed: 18000 rpm, temperature: 80 degC, eta: 8 mPa s, rho: 820 } }",
+            values: &[("gap", "159.806 W"), ("faces", "83.7930 W")],
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: rotor, radius: 75 mm, gap: 0.8 mm, length: 134 mm, bore: slotted }, \
+                    at: { speed: 3000 rpm, temperature: 80 degC, eta: 8 mPa s, rho: 820 } }",
+            values: &[("gap", "4.12754 W"), ("faces", "0.489216 W")],
+            ..SIX_DIGITS
+        },
         // 1 % of oil, by the three rules of viscosity.
         Check {
             input: "{ model: { type: rotor, radius: 75 mm, gap: 0.8 mm, length: 134 mm, bore: smooth, oil_fraction: 0.01 }, \
@@ -175,6 +199,22 @@ register!(Auxiliary, "rotor", Rotor,
             values: &[("gap", "530.1 W")],
             tolerance: 2e-4,
             because: "the values have four digits",
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: rotor, radius: 75 mm, gap: 0.8 mm, length: 134 mm, bore: smooth, oil_fraction: 0.05 }, \
+                    at: { speed: 12000 rpm, temperature: 80 degC, eta: 8 mPa s, rho: 820 } }",
+            values: &[("gap", "1684.9 W")],
+            tolerance: 2e-4,
+            because: "the values have four or five digits",
+            ..SIX_DIGITS
+        },
+        Check {
+            input: "{ model: { type: rotor, radius: 75 mm, gap: 0.8 mm, length: 134 mm, bore: smooth, oil_fraction: 0.2, mixture_viscosity: mass }, \
+                    at: { speed: 12000 rpm, temperature: 80 degC, eta: 8 mPa s, rho: 820 } }",
+            values: &[("gap", "8628 W")],
+            tolerance: 2e-4,
+            because: "the values have four or five digits",
             ..SIX_DIGITS
         },
     ],

@@ -151,7 +151,9 @@ impl<'a> Run<'a> {
 
     /// Runs an analysis and adds its section to the report.
     pub(super) fn attempt(&self, name: &str, analysis: &AnalysisEntry, out: &mut Out) -> Result<(), Failure> {
-        self.report.borrow_mut().begin(name, analysis);
+        self.report
+            .borrow_mut()
+            .begin(&self.study.entry.analyses, name, analysis);
         let tables = Tables::new(&self.files, analysis.formats());
         let study = self.analyses.study_for_analysis();
         let planner = Planner::new(self.language, &study, name);

@@ -15,7 +15,7 @@ const FEW: usize = 6;
 
 /// What is copied of an evaluated point.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Snapshot {
+pub struct Snapshot {
     /// Losses of all parts. \[W\]
     pub watts: Vec<f64>,
     /// Speeds of the members. \[rad/s\]
@@ -98,6 +98,54 @@ impl<R: Points> Scratch<R> {
 }
 
 impl Transmission {
+    /// Evaluates points at temperatures of each, together where that is faster, each with the numbers that it has as a single one. They
+    /// have the power flow of the first. \[degC\]
+    ///
+    /// Each is a copy, or why there are no losses. Points that are evaluated together have noted the range of all of them.
+    pub fn snapshots<'t>(
+        &self,
+        case: &Case,
+        points: &[Point<'_>],
+        temperatures: &dyn Fn(usize) -> &'t [f64],
+        noting: Noting,
+        scratch: &mut BatchScratch,
+    ) -> Vec<Result<Snapshot, Unbalanced>> {
+        let mut snapshots = vec![Snapshot::default(); points.len()];
+        let asked = points.iter().zip(&mut snapshots).enumerate();
+        let mut asked: Vec<Asked<'_>> = asked
+            .map(|(i, (point, snapshot))| Asked {
+                point: *point,
+                temperatures: temperatures(i),
+                snapshot,
+            })
+            .collect();
+        let results = self.evaluate_each(case, &mut asked, Start::Lossless, noting, scratch);
+        let pairs = results.into_iter().zip(snapshots);
+        pairs.map(|(result, snapshot)| result.map(|()| snapshot)).collect()
+    }
+
+    /// Evaluates a point at temperatures as one of [`Transmission::snapshots`]. \[degC\]
+    ///
+    /// # Errors
+    /// Why there are no losses.
+    pub fn snapshot(
+        &self,
+        case: &Case,
+        point: &Point<'_>,
+        temperatures: &[f64],
+        noting: Noting,
+        scratch: &mut BatchScratch,
+    ) -> Result<Snapshot, Unbalanced> {
+        let mut snapshot = Snapshot::default();
+        let mut asked = Asked {
+            point: *point,
+            temperatures,
+            snapshot: &mut snapshot,
+        };
+        self.evaluate_one(case, &mut asked, Start::Lossless, noting, &mut scratch.alone)?;
+        Ok(snapshot)
+    }
+
     /// Evaluates a point.
     ///
     /// # Errors

@@ -100,6 +100,8 @@ fn machine_of(path: &str, entry: &MachineEntry, around: Around<'_>, found: &mut 
         node
     };
     let (rotor, stator) = (node("rotor", &entry.rotor), node("stator", &entry.stator));
+    let heated = entry.inverter.as_ref().and_then(|inverter| inverter.node.as_ref());
+    let inverter_node = node("inverter.node", &heated.cloned());
     let port = around.ports.iter().position(|p| p.name == entry.port);
     if port.is_none() {
         let ids: Vec<&str> = around.ports.iter().map(|p| p.name.as_str()).collect();
@@ -153,6 +155,7 @@ fn machine_of(path: &str, entry: &MachineEntry, around: Around<'_>, found: &mut 
         notes,
         only_in_network: false,
         nodes: rotor.zip(stator).map(|(rotor, stator)| [rotor, stator]),
+        inverter_node,
         contains: entry.contains.clone(),
         rotor_share: entry.rotor_share.clone(),
         law,

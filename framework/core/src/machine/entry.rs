@@ -175,6 +175,9 @@ pub struct InverterEntry {
     pub map: Option<TableFile>,
     /// Values of the data sheet of the power semiconductors. They need the phase current: columns of the map of the machine, or `current`.
     pub bridge: Option<BridgeEntry>,
+    /// Node of the thermal network that its losses heat, such as that of its coolant. Without one they heat nothing.
+    #[schemars(extend("x-refers-to" = ["thermal.network.nodes", "ambient"]))]
+    pub node: Option<String>,
 }
 
 /// A bridge of two levels and three phases with sine modulation.

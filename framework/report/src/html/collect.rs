@@ -1,5 +1,6 @@
 //! The content of a report, collected while the analyses of a study run.
 
+use gearloss_framework::description::Ordered;
 use gearloss_studies::analyses::{AnalysisEntry, Outcome, Planner, Stopped};
 
 use super::{Report, Section, gearbox_page};
@@ -8,11 +9,14 @@ use crate::stated_ranges::StatedRanges;
 use crate::text::capitalised;
 
 impl Report {
-    /// Begins the section of an analysis.
-    pub fn begin(&mut self, name: &str, analysis: &AnalysisEntry) {
+    /// Begins the section of one of the analyses of a study.
+    pub fn begin(&mut self, analyses: &Ordered<AnalysisEntry>, name: &str, analysis: &AnalysisEntry) {
+        let alike = |other: &&AnalysisEntry| other.kind().name == analysis.kind().name;
+        let is_one_of_several = analyses.iter().filter(|(_, other)| alike(other)).count() > 1;
         self.sections.push(Section {
             name: name.to_owned(),
             title: analysis.title.clone().unwrap_or_else(|| title(name)),
+            which: analysis.title.clone().filter(|_| is_one_of_several),
             about: analysis.kind().meaning(),
             note: analysis.note.clone(),
             ..Section::default()

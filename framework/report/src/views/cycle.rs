@@ -241,6 +241,9 @@ fn heat_text(duty: &DutyOfSet, heat: &HeatOfDuty, page: &mut Page) {
     if let Some(motors) = duty.energy.motors_j {
         parts.push(format!("motors {}", kj(motors)));
     }
+    if heat.inverters_j != 0.0 {
+        parts.push(format!("inverters {}", kj(heat.inverters_j)));
+    }
     if heat.sources_j != 0.0 {
         parts.push(format!("sources {}", kj(heat.sources_j)));
     }

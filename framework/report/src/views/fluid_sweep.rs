@@ -9,7 +9,7 @@ use crate::Figure;
 use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
-use crate::text::{TextTable, significant};
+use crate::text::{TextTable, number, short, significant};
 
 register_view!(FluidSweepOutcome, show);
 
@@ -33,6 +33,19 @@ fn show(outcome: &FluidSweepOutcome, page: &mut Page) {
             lines: lines(&outcome.fluid_sweep, relative),
         };
         page.figure(format!("{name}-{file}"), figure);
+    }
+    let consumptions = consumptions(&outcome.fluid_sweep);
+    if !consumptions.is_empty() {
+        let figure = Figure::Lines {
+            title: format!("{name}: consumption of the vehicle in kWh/100 km"),
+            x: outcome
+                .fluid_sweep
+                .first()
+                .map_or_else(String::new, |set| set.property.clone()),
+            y: "consumption in kWh/100 km".to_owned(),
+            lines: consumptions,
+        };
+        page.figure(format!("{name}-consumption"), figure);
     }
     for set in &outcome.fluid_sweep {
         for (i, limit) in set.limits.iter().enumerate() {
@@ -94,6 +107,12 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
         row.extend(listed(duty).map(|fluid| format!("{:.2}", fluid.mean_loss_w)));
         table.row(row);
     }
+    for duty in set.cycles.iter().filter(|duty| duty.least_consumption.is_some()) {
+        let mut row = vec![format!("{}, consumption [kWh/100 km]", duty.cycle)];
+        let used = |fluid: &LossOfFluid| fluid.consumption.map(|used| used.consumption_kwh_per_100_km);
+        row.extend(listed(duty).map(|fluid| number(used(fluid), 3)));
+        table.row(row);
+    }
     for (i, limit) in set.limits.iter().enumerate() {
         let mut row = vec![format!("{} [{}]", limit.quantity, limit.unit)];
         row.extend(
@@ -109,7 +128,11 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
         );
     }
     for FluidsOfDuty {
-        cycle, least, present, ..
+        cycle,
+        least,
+        least_consumption,
+        present,
+        ..
     } in &set.cycles
     {
         let end = if least.at_end_of_range {
@@ -126,8 +149,34 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
             significant(least.flat_range[1]),
             present.mean_loss_w
         ));
+        if let (Some(used), Some(now)) = (least_consumption, present.consumption) {
+            let range = used.range_km.map(|km| format!(" and a range of {} km", short(km)));
+            page.line(format!(
+                "  {cycle}: least consumption of these oils {:.3} kWh/100 km{} at {}; {:.3} kWh/100 km at present",
+                used.consumption_kwh_per_100_km,
+                range.unwrap_or_default(),
+                significant(used.value),
+                now.consumption_kwh_per_100_km
+            ));
+        }
     }
     page.line("");
+}
+
+/// Consumption of every cycle over the property, where the vehicle has a battery.
+fn consumptions(sets: &[FluidsOfSet]) -> Vec<Line> {
+    let duties = sets
+        .iter()
+        .flat_map(|set| set.cycles.iter().map(move |duty| (set, duty)));
+    let known = duties.filter(|(_, duty)| duty.least_consumption.is_some());
+    let line = |(set, duty): (&FluidsOfSet, &FluidsOfDuty)| Line {
+        name: format!("{} {}", set.model_set, duty.cycle),
+        points: (duty.fluids.iter())
+            .map(|fluid| Some((fluid.value, fluid.consumption?.consumption_kwh_per_100_km)))
+            .collect(),
+        stroke: Stroke::Marked,
+    };
+    known.map(line).collect()
 }
 
 /// The listed oils of the study.

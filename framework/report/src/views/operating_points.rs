@@ -11,6 +11,7 @@ use crate::page::Page;
 use crate::plot::Bar;
 use crate::register_view;
 use crate::text::{TextTable, fixed, number, words_of_set};
+use crate::unit;
 
 register_view!(OperatingPointsOutcome, show);
 
@@ -50,6 +51,8 @@ fn losses(bound: &[String], of_set: &PointsOfSet) -> TextTable {
     head.extend(["torque Nm", "speed rpm", "oil degC"]);
     head.extend(shares.iter().map(String::as_str));
     head.extend(["loss W", "efficiency %"]);
+    let has_unit = points.iter().any(|p| p.unit.is_some());
+    head.extend(unit::head(has_unit));
     let measured = points.iter().any(|p| !p.measured.is_empty());
     if measured {
         head.extend(["measured W", "measured oil degC", "measured surface degC"]);
@@ -68,6 +71,7 @@ fn losses(bound: &[String], of_set: &PointsOfSet) -> TextTable {
         cells.extend((0..shares.len()).map(|i| number(share(i), 2)));
         cells.push(number(p.loss_w, 2));
         cells.push(number(p.efficiency.map(|e| 100.0 * e), 2));
+        cells.extend(unit::cells(has_unit, p.unit.as_ref()));
         if measured {
             cells.push(number(p.measured.loss_w, 2));
             cells.push(number(p.measured.oil_temperature_degc, 1));

@@ -198,23 +198,34 @@ impl<'a> Sweep<'a> {
             (Some(path), Some(word)) => format!(", {path} {word}"),
             _ => String::new(),
         };
-        page.line(format!(
-            "{}: loss in W over {}, models {set}{beside}",
-            self.name, self.path
-        ));
         let mut titles = vec!["torque Nm", "speed rpm"];
         titles.extend(self.words.iter().map(String::as_str));
-        let mut table = TextTable::new(&titles);
-        for (i, point) in first.points.iter().enumerate() {
-            let mut row = vec![format!("{}", point.torque_nm), fixed(point.solved_speed_rpm, 0)];
-            row.extend(
-                values
-                    .iter()
-                    .map(|value| number(value.and_then(|value| value.points[i].loss_w), 2)),
-            );
-            table.row(row);
+        type Read = fn(&PointOfSweep) -> Option<f64>;
+        let of_unit: [(&str, Read); 2] = [
+            ("loss of the drive unit in W", |point| Some(point.unit?.unit_loss_w)),
+            ("system efficiency in %", |point| {
+                Some(100.0 * point.unit?.system_efficiency?)
+            }),
+        ];
+        let has_unit = first.points.iter().any(|point| point.unit.is_some());
+        let quantities = std::iter::once(("loss in W", (|point| point.loss_w) as Read));
+        for (words, read) in quantities.chain(of_unit.into_iter().filter(|_| has_unit)) {
+            page.line(format!(
+                "{}: {words} over {}, models {set}{beside}",
+                self.name, self.path
+            ));
+            let mut table = TextTable::new(&titles);
+            for (i, point) in first.points.iter().enumerate() {
+                let mut row = vec![format!("{}", point.torque_nm), fixed(point.solved_speed_rpm, 0)];
+                row.extend(
+                    values
+                        .iter()
+                        .map(|value| number(value.and_then(|value| read(&value.points[i])), 2)),
+                );
+                table.row(row);
+            }
+            page.table(table);
         }
-        page.table(table);
     }
 
     /// Whether the values of the only path are names, such as those of oils, which have no place on an axis.

@@ -11,6 +11,7 @@ use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
 use crate::text::{TextTable, number};
+use crate::unit;
 
 register_view!(ThermalLimitOutcome, show);
 
@@ -26,16 +27,21 @@ fn show(outcome: &ThermalLimitOutcome, page: &mut Page) {
 
 /// The limits of one set with notes.
 fn table(of_set: &ThermalLimitsOfSet, page: &mut Page) {
-    let mut table = TextTable::new(&["oil degC", "speed rpm", "torque Nm", "outcome", "loss W", "output W"]);
+    let has_unit = of_set.limits.iter().any(|limit| limit.unit.is_some());
+    let mut head = vec!["oil degC", "speed rpm", "torque Nm", "outcome", "loss W", "output W"];
+    head.extend(unit::head(has_unit));
+    let mut table = TextTable::new(&head);
     for limit in &of_set.limits {
-        table.row(vec![
+        let mut row = vec![
             number(Some(limit.limit_degc), 1),
             number(limit.solved_speed_rpm, 1),
             number(limit.torque_nm, 3),
             limit.outcome.replace('_', " "),
             number(limit.loss_w, 2),
             number(limit.output_w, 1),
-        ]);
+        ];
+        row.extend(unit::cells(has_unit, limit.unit.as_ref()));
+        table.row(row);
     }
     page.table(table);
     // If losses increase with temperature, a lower steady temperature may exist.

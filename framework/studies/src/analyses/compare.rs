@@ -25,7 +25,7 @@ use crate::codes;
 use crate::correction::{CorrectionFrom, ReadyCorrection};
 use crate::points::Note;
 use crate::register_analysis;
-use crate::study::{By, Data, Difference, Quantity, RideEntry, Uses, Write};
+use crate::study::{By, CycleGear, Data, Difference, Quantity, RideEntry, Uses, Write};
 use crate::table::Table;
 
 /// Difference between model sets, products and variants over a grid or over cycles, or from a measurement.
@@ -51,9 +51,9 @@ pub struct CompareEntry {
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "path"))]
     pub bind: Ordered<String>,
-    /// Gear of the data without a column `gear`; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
+    /// Gear of the data or of cycles without one; default: the first. Over cycles `best` chooses the gear that draws least, an entry states how
+    /// gears are chosen.
+    pub gear: Option<CycleGear>,
     /// Model sets to compare; `PRODUCT/SET` selects another gearbox.
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "model_sets"))]
@@ -153,7 +153,7 @@ impl Analysis for CompareEntry {
         Uses {
             grid: self.grid.as_ref(),
             ..Uses::new(self.gearbox.as_ref(), self.base.iter().chain(&self.against))
-                .in_gears(&self.gear)
+                .in_gears(self.gear.iter().flat_map(CycleGear::names))
                 .bind(&self.bind)
                 .with("data", self.data.as_ref())
                 .riding(self.drive.as_ref())

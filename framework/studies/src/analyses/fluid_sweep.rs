@@ -109,6 +109,8 @@ pub struct FluidsOfDuty {
     pub least: LeastLoss,
     /// The listed or refined oil with the least loss that keeps all limits; null without limits, or if none keeps them.
     pub least_within_limits: Option<OilWithinLimits>,
+    /// The listed or refined oil with the least consumption; null without a battery or without distance.
+    pub least_consumption: Option<OilOfLeastConsumption>,
     /// The oil as described.
     pub present: PresentOil,
     /// The oils in ascending order of the value.
@@ -133,6 +135,17 @@ pub struct OilWithinLimits {
     pub value: f64,
     /// Mean loss of the transmission. [W]
     pub mean_loss_w: f64,
+}
+
+/// The oil with which the vehicle uses least.
+#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+pub struct OilOfLeastConsumption {
+    /// Value of the property, in its unit.
+    pub value: f64,
+    /// Consumption. [kWh/100 km]
+    pub consumption_kwh_per_100_km: f64,
+    /// Range with the usable energy; absent if more is recuperated than drawn. [km]
+    pub range_km: Option<f64>,
 }
 
 /// Mean loss of one cycle with one oil.
@@ -364,6 +377,19 @@ impl Search<'_> {
         })
     }
 
+    /// The driven oil with the least consumption of a cycle.
+    fn least_consumption(&self, duty: usize) -> Option<OilOfLeastConsumption> {
+        let used = self.fluids.iter().filter_map(|fluid| {
+            let consumption = fluid.losses[duty].consumption?;
+            Some(OilOfLeastConsumption {
+                value: fluid.value,
+                consumption_kwh_per_100_km: consumption.consumption_kwh_per_100_km,
+                range_km: consumption.range_km,
+            })
+        });
+        used.min_by(|a, b| a.consumption_kwh_per_100_km.total_cmp(&b.consumption_kwh_per_100_km))
+    }
+
     /// Notes the limited values of the oil with the least loss among those that break the limits least.
     fn note_limits(&self, b: &Built<'_>) {
         let total = |fluid: &Fluid| fluid.losses.iter().map(|loss| loss.loss).sum::<f64>();
@@ -403,6 +429,7 @@ impl Search<'_> {
                     cycle: read.name.clone(),
                     least: LeastLoss::new(&self.points(k)),
                     least_within_limits: self.least_within_limits(k),
+                    least_consumption: self.least_consumption(k),
                     present: PresentOil {
                         value: self.swept.present(),
                         mean_loss_w: self.present.0[k].loss,

@@ -27,9 +27,20 @@ impl<'a> From<&'a CycleGear> for GearOfCycles<'a> {
     }
 }
 
-impl<'a> From<&'a String> for GearOfCycles<'a> {
-    fn from(name: &'a String) -> Self {
-        Self::Named(name)
+/// The gear of points, which is not chosen; absent: the first.
+///
+/// # Errors
+/// If it is chosen.
+pub fn stated_gear<'a>(cx: &Planner<'_>, gear: Option<&'a CycleGear>) -> Result<Option<&'a str>, Stopped> {
+    let name = gear.map(GearOfCycles::from).map(GearOfCycles::name);
+    match name {
+        Some(None) => Err(cx.wrong_as(
+            codes::GEAR_CHOICE,
+            &format!("{}.gear", cx.path()),
+            "gears are chosen in cycles and maps, not at points",
+            "name a gear, or write `drive: { cycles: [NAME] }`",
+        )),
+        name => Ok(name.flatten()),
     }
 }
 
@@ -39,6 +50,18 @@ impl<'a> GearOfCycles<'a> {
         match self {
             Self::Named(name) if name != BEST => Some(name),
             _ => None,
+        }
+    }
+
+    /// The gear or its choice in a word.
+    pub fn word(self) -> &'a str {
+        match self {
+            Self::Named(name) => name,
+            Self::Chosen(chosen) => match chosen.choose {
+                Some(Choose::Best) => BEST,
+                Some(Choose::Optimum) => "optimum",
+                None => "map",
+            },
         }
     }
 

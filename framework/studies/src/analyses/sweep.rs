@@ -13,6 +13,7 @@ use serde_json::Value;
 
 use super::axes::{speeds, torques};
 use super::duties::{DrivePlan, Duties, sums_energies};
+use super::gears::stated_gear;
 use super::limits::Limit;
 use super::limits::at_points::LimitColumn;
 use super::limits::over_cycles::limits_of;
@@ -22,7 +23,7 @@ use super::shares::{Shares, together};
 use super::{Analysis, Built, Engine, Plan, Planner, Run, Runs, Stopped, Work, gear_of};
 use crate::points::{GridResult, Points, TotalLoss, notes_with_shares};
 use crate::register_analysis;
-use crate::study::{By, RideEntry, SpeedAxis, Together, TorqueAxis, Uses, Write};
+use crate::study::{By, CycleGear, RideEntry, SpeedAxis, Together, TorqueAxis, Uses, Write};
 use crate::varied::{Tie, Varied};
 
 pub use self::outcome::{
@@ -37,9 +38,8 @@ pub struct SweepEntry {
     /// Gearbox; default: the first.
     #[schemars(extend("x-refers-to" = "gearboxes"))]
     pub gearbox: Option<String>,
-    /// Gear; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
+    /// Gear; default: the first. Over cycles `best` chooses the gear that draws least, an entry states how gears are chosen.
+    pub gear: Option<CycleGear>,
     /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "model_sets"))]
@@ -138,7 +138,7 @@ impl Analysis for SweepEntry {
 
     fn uses(&self) -> Uses<'_> {
         Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .in_gears(&self.gear)
+            .in_gears(self.gear.iter().flat_map(CycleGear::names))
             .riding(self.drive.as_ref())
     }
 
@@ -152,6 +152,7 @@ impl Analysis for SweepEntry {
                 let help = "write `torque: 10 Nm` and `speed: 3000 rpm`, or `drive: { cycles: [NAME] }`";
                 return Err(cx.wrong(&path, "neither points nor cycles are stated", help));
             };
+            let gear = stated_gear(cx, self.gear.as_ref())?;
             let (mut runs, mut held) = (Vec::new(), 0);
             for built in built {
                 let t = &built.transmission;
@@ -159,7 +160,7 @@ impl Analysis for SweepEntry {
                 let speeds = speeds(cx, &format!("{path}.speed"), speed, t)?;
                 let points = Points {
                     terms: self.by == By::Term,
-                    ..cx.points(t, gear_of(self.gear.as_deref(), t), torques, speeds)
+                    ..cx.points(t, gear_of(gear, t), torques, speeds)
                 };
                 held += points.field.len();
                 cx.holds(&path, held, 1)?;

@@ -11,7 +11,7 @@ use super::axes::{speeds, torques};
 use super::balance::needs_balance;
 use super::numbers::{RPM, tidy};
 use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work, gear_of};
-use crate::points::{Given, Note, notes};
+use crate::points::{Given, Note, UnitPoint, notes, unit_of};
 use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
 use crate::table::Table;
@@ -104,6 +104,9 @@ pub struct ThermalLimit {
     pub efficiency: Option<f64>,
     /// Lowest stable temperature there: differs from the limit if there are several. [degC]
     pub lowest_balance_degc: Option<f64>,
+    /// The drive unit there; absent without machines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<UnitPoint>,
     /// The speed without rounding, for figures. [rpm]
     #[serde(skip)]
     pub solved_speed_rpm: Option<f64>,
@@ -285,6 +288,7 @@ impl Search<'_> {
             output_w: None,
             efficiency: None,
             lowest_balance_degc: None,
+            unit: None,
             solved_speed_rpm: (self.find == Find::Torque).then_some(fixed * RPM),
         };
         if let Some(x) = limit.value() {
@@ -299,6 +303,7 @@ impl Search<'_> {
             (found.torque_nm, found.solved_speed_rpm) = (Some(torque[0]), Some(speed[0] * RPM));
             (found.loss_w, found.efficiency) = (solution.loss(), solution.efficiency());
             (found.input_w, found.output_w) = (solution.input_power(), solution.output_power());
+            found.unit = unit_of(t, &solution, &[temperature]);
         }
         found.speed_rpm = found.solved_speed_rpm.map(tidy);
         found
@@ -318,6 +323,13 @@ impl Outcome for ThermalLimitOutcome {
                 "limit_degc torque_nm speed_rpm outcome loss_w input_w output_w efficiency lowest_balance_degc",
                 |(_, limit)| limit,
             );
+        let mut limits = self.thermal_limits.iter().flat_map(|of_set| &of_set.limits);
+        let has_unit = limits.any(|limit| limit.unit.is_some());
+        let table = table.each(UnitPoint::columns(has_unit), |table, column| {
+            table.number(column.name, column.unit, column.meaning, |(_, limit)| {
+                limit.unit.as_ref().and_then(column.read)
+            })
+        });
         vec![table.finish()]
     }
 

@@ -5,7 +5,7 @@
 
 mod gears;
 
-use self::gears::{Chooser, Chosen, drive_optimum};
+use self::gears::{Chooser, Chosen, Solved, drive_optimum};
 use super::OilTemperature;
 use crate::codes;
 use crate::duty::{Demand, Interval, Vehicle, input_torque};
@@ -185,6 +185,13 @@ struct Asked {
     limited: Option<[f64; 2]>,
 }
 
+/// A demand within its limits.
+struct Settled {
+    asked: Asked,
+    /// True if it is the same at the temperatures of a later time.
+    is_clear: bool,
+}
+
 /// An interval with its demand.
 struct Planned<'a> {
     interval: &'a Interval,
@@ -289,7 +296,7 @@ fn drive_through(
         total: Heats::default(),
         brakes: 0.0,
         start,
-        seen: Vec::new(),
+        seen: vec![Extent::EMPTY; transmission.cells()],
         lost_outside: vec![0.0; transmission.cells()],
         evaluations: 0,
         calls: 0,
@@ -308,10 +315,20 @@ fn drive_through(
             Some(chooser) => chooser.choose(&mut cases, (rest, together), warm, &mut driven)?,
             None => stated(&cases, &rest[..together])?,
         };
-        let planned = plan(&mut cases, (&rest[..together], &chosen), warm, &mut driven)?;
+        let planned = plan(
+            &mut cases,
+            (&rest[..together], &chosen),
+            (warm, chooser.as_ref()),
+            &mut driven,
+        )?;
         let passed = match &mut march {
             Some(march) => advance(march, &mut cases, &planned),
-            None => steady(&mut cases, &planned[0], &mut driven).map(|passed| vec![passed]),
+            None => {
+                let solved = chooser
+                    .as_mut()
+                    .and_then(|chooser| chooser.take_solved(chosen[0].state));
+                steady(&mut cases, &planned[0], solved, &mut driven).map(|passed| vec![passed])
+            }
         };
         let passed = match passed {
             Ok(passed) => passed,
@@ -357,32 +374,48 @@ fn drive_through(
 fn plan<'i>(
     cases: &mut Cases<'_>,
     (intervals, chosen): (&'i [Interval], &[Chosen]),
-    warm: Option<&[f64]>,
+    (warm, chooser): (Option<&[f64]>, Option<&Chooser<'_>>),
     driven: &mut Driven,
 ) -> Result<Vec<Planned<'i>>, Vec<Diagnostic>> {
     let mut planned = Vec::with_capacity(intervals.len());
-    for (interval, chosen) in intervals.iter().zip(chosen) {
+    for (i, (interval, chosen)) in intervals.iter().zip(chosen).enumerate() {
         if !chosen.is_clear && !planned.is_empty() {
             break;
         }
         let around = around(cases.ride, Some(interval));
-        let gear = &cases.transmission.states()[chosen.state].name;
-        let mut asked = ask(cases, interval, &around, gear)?;
-        if let Some(lossless) = asked.limited {
-            let (limited, is_clear) = limit(cases, asked, (interval, &around, lossless), gear, (warm, driven))?;
-            if !is_clear && !planned.is_empty() {
-                break;
-            }
-            asked = limited;
+        let settled = match chooser.and_then(|chooser| chooser.solved(i, chosen.state)) {
+            Some(solved) => Settled {
+                asked: solved.asked,
+                is_clear: solved.is_clear,
+            },
+            None => settle(cases, (interval, &around), chosen.state, (warm, driven))?,
+        };
+        if !settled.is_clear && !planned.is_empty() {
+            break;
         }
         planned.push(Planned {
             interval,
-            asked,
+            asked: settled.asked,
             around,
             chosen: *chosen,
         });
     }
     Ok(planned)
+}
+
+/// The demand of an interval in a gear state, limited at these temperatures.
+fn settle(
+    cases: &mut Cases<'_>,
+    (interval, around): (&Interval, &Surroundings),
+    state: usize,
+    (warm, driven): (Option<&[f64]>, &mut Driven),
+) -> Result<Settled, Vec<Diagnostic>> {
+    let gear = &cases.transmission.states()[state].name;
+    let asked = ask(cases, interval, around, gear)?;
+    match asked.limited {
+        Some(lossless) => limit(cases, asked, (interval, around, lossless), gear, (warm, driven)),
+        None => Ok(Settled { asked, is_clear: true }),
+    }
 }
 
 /// The stated gears of intervals.
@@ -589,16 +622,14 @@ fn ask(
     })
 }
 
-/// The demand of an interval whose torque at the wheels exceeds the limit of regeneration without losses: with the losses at these
-/// temperatures, the input torque is within the limit, or it is limited. True if it is the same with half and with one and a half times
-/// these losses, and hence at the temperatures of a later time.
+/// The demand of an interval whose torque at the wheels exceeds the limit of regeneration without losses, at these temperatures.
 fn limit(
     cases: &mut Cases<'_>,
     asked: Asked,
-    (interval, around, [ideal, input_speed]): (&Interval, &Surroundings, [f64; 2]),
+    (interval, around, lossless): (&Interval, &Surroundings, [f64; 2]),
     gear: &str,
     (warm, driven): (Option<&[f64]>, &mut Driven),
-) -> Result<(Asked, bool), Vec<Diagnostic>> {
+) -> Result<Settled, Vec<Diagnostic>> {
     let (t, ride) = (cases.transmission, cases.ride);
     let given = interval.given.oil_temperature.or(ride.oil.given());
     let oil = [given.unwrap_or(t.oil_temperature)];
@@ -607,30 +638,41 @@ fn limit(
     let case = &cases.known[asked.place].1;
     let point = point_of(case, ride, &asked, interval.inclination);
     let tried = t.try_point(case, &point, warm.unwrap_or(&oil), scratch, Noting::Muted);
-    let asked_torque = scratch.port_torque(t.ports()[t.reference_port()].member);
-    let Some(vehicle) = ride.vehicle.filter(|_| tried.is_ok()) else {
+    if tried.is_err() {
         // The solved point reports that losses have no value.
-        return Ok((asked, false));
-    };
-    let regained = |torque: f64| supplied(t, vehicle, torque, [input_speed, around.vehicle_speed]);
-    let exceeds = |torque: f64| regained(torque) != torque;
-    let slack = 0.5 * (asked_torque - ideal).abs();
-    let is_clear = exceeds(asked_torque - slack) == exceeds(asked_torque + slack);
-    if !exceeds(asked_torque) {
-        return Ok((asked, is_clear));
+        return Ok(Settled { asked, is_clear: false });
     }
-    let place = cases.place(gear, At::Input)?;
-    let torque = regained(asked_torque);
-    let wanted = (asked_torque > 0.0).then_some(-asked.torque * asked.speed);
-    Ok((
+    let torque = scratch.port_torque(t.ports()[t.reference_port()].member);
+    limited(cases, asked, (torque, lossless, around.vehicle_speed), gear)
+}
+
+/// A demand with the torque of the reference port that it needs with losses: it is within the limit, or it is limited. It is clear if it
+/// is the same with half and with one and a half times these losses, and hence at the temperatures of a later time.
+fn limited(
+    cases: &mut Cases<'_>,
+    asked: Asked,
+    (needed, [ideal, input_speed], vehicle_speed): (f64, [f64; 2], f64),
+    gear: &str,
+) -> Result<Settled, Vec<Diagnostic>> {
+    let Some(vehicle) = cases.ride.vehicle else {
+        return Ok(Settled { asked, is_clear: false });
+    };
+    let regained = |torque: f64| supplied(cases.transmission, vehicle, torque, [input_speed, vehicle_speed]);
+    let exceeds = |torque: f64| regained(torque) != torque;
+    let slack = 0.5 * (needed - ideal).abs();
+    let is_clear = exceeds(needed - slack) == exceeds(needed + slack);
+    let torque = regained(needed);
+    let asked = if exceeds(needed) {
         Asked {
-            place,
+            place: cases.place(gear, At::Input)?,
             torque,
-            wanted,
+            wanted: (needed > 0.0).then_some(-asked.torque * asked.speed),
             ..asked
-        },
-        is_clear,
-    ))
+        }
+    } else {
+        asked
+    };
+    Ok(Settled { asked, is_clear })
 }
 
 /// Largest torque of a machine at the reference port, whose envelope limits it, at a speed \[rad/s\]; infinite without one. \[Nm\]
@@ -713,35 +755,56 @@ fn steady_temperatures(
     })
 }
 
-/// A steady-state interval: at a given temperature, or at the equilibrium with its own losses.
-fn steady(cases: &mut Cases<'_>, planned: &Planned<'_>, driven: &mut Driven) -> Result<Passed, Unbalanced> {
+/// A steady-state interval: at a given temperature, or at the equilibrium with its own losses. What choosing its gear has solved is not
+/// solved again.
+fn steady(
+    cases: &mut Cases<'_>,
+    planned: &Planned<'_>,
+    solved: Option<Solved>,
+    driven: &mut Driven,
+) -> Result<Passed, Unbalanced> {
     let Planned { interval, asked, .. } = planned;
-    let warm = steady_temperatures(cases, interval, asked, &planned.around)?;
-    let (t, ride) = (cases.transmission, cases.ride);
-    let (case, scratch) = (&cases.known[asked.place].1, cases.scratches[asked.place].alone());
-    let point = &point_of(case, ride, asked, interval.inclination);
-    let duration = interval.duration;
+    let (found, point) = solved.map_or((None, None), |solved| (solved.found, solved.point));
+    let warm = match found {
+        Some(warm) => warm,
+        None => {
+            let warm = steady_temperatures(cases, interval, asked, &planned.around)?;
+            driven.evaluations += warm.evaluations();
+            warm
+        }
+    };
     if !warm.is_sound() {
         let balance = warm.balance.as_ref().and_then(|b| b.undefined);
         let network = warm.network.as_ref().and_then(|n| n.undefined);
         return Err(balance.map(|(_, why)| why).or(network).unwrap_or(Unbalanced::Flow));
     }
-    driven.evaluations += warm.evaluations() + 1;
-    t.try_point(case, point, warm.temperatures(), scratch, Noting::Counted)?;
-    for (cell, watts) in scratch.lost_outside() {
+    let t = cases.transmission;
+    let duration = interval.duration;
+    let point = match point {
+        Some(point) => point,
+        None => {
+            driven.evaluations += 1;
+            let (case, scratch) = (&cases.known[asked.place].1, &mut cases.scratches[asked.place]);
+            let point = point_of(case, cases.ride, asked, interval.inclination);
+            t.snapshot(case, &point, warm.temperatures(), Noting::Seen, scratch)?
+        }
+    };
+    point.count(t, &mut driven.seen);
+    for (cell, watts) in point.lost_outside(t) {
         driven.lost_outside[cell] += watts * duration;
     }
     let each = |list: &[f64]| list.iter().map(|x| x * duration).collect();
-    let [input, output] = scratch.power();
+    let [input, output] = point.power;
     let mut heats = Heats {
         duration,
-        parts: each(scratch.watts()),
+        parts: each(&point.watts),
         input: input * duration,
         output: output * duration,
         ..Heats::default()
     };
     if let Some(steady) = &warm.network {
         heats.motors = steady.motors.iter().map(|m| m.map(|x| x * duration)).collect();
+        heats.inverters = each(&steady.inverters);
         heats.sources = t
             .network()
             .map_or(0.0, |n| n.sources().iter().map(|(_, watts)| watts * duration).sum());
@@ -749,17 +812,15 @@ fn steady(cases: &mut Cases<'_>, planned: &Planned<'_>, driven: &mut Driven) -> 
         heats.exchangers = each(&steady.leaving.exchangers);
         heats.flows = steady.leaving.flows * duration;
     }
-    let members = 0..scratch.speeds().len();
-    let port_torques: Vec<f64> = members.map(|member| scratch.port_torque(member)).collect();
-    let machines = t.machines_at(scratch.speeds(), &port_torques, warm.temperatures());
+    let machines = t.machines_at(&point.speeds, &point.port_torques, warm.temperatures());
     heats.machines = (machines.iter())
         .map(|state| MachineEnergy::lasting(state, duration))
         .collect();
     Ok(Passed {
         heats,
         temperatures: warm.temperatures().to_vec(),
-        speeds: scratch.speeds().to_vec(),
-        port_torques,
-        status: scratch.status(),
+        speeds: point.speeds,
+        port_torques: point.port_torques,
+        status: point.status,
     })
 }

@@ -79,9 +79,18 @@ pub struct SolvedPoint<'a> {
 impl SolvedPoint<'_> {
     /// The drive unit; absent without machines, and without a loss.
     pub fn unit(&self) -> Option<UnitPoint> {
-        let machines: Vec<MachineState> = self.machines.iter().map(|(_, state)| *state).collect();
-        UnitPoint::new(&machines, self.solution.loss()?)
+        unit(&self.machines, &self.solution)
     }
+}
+
+fn unit(machines: &[(String, MachineState)], solution: &Solution<'_>) -> Option<UnitPoint> {
+    let machines: Vec<MachineState> = machines.iter().map(|(_, state)| *state).collect();
+    UnitPoint::new(&machines, solution.loss()?)
+}
+
+/// The drive unit of a solution at temperatures \[degC\]; absent without machines, and without a loss.
+pub fn unit_of(t: &Transmission, solution: &Solution<'_>, temperatures: &[f64]) -> Option<UnitPoint> {
+    unit(&machines(t, solution, temperatures), solution)
 }
 
 /// The active machines of a solved point with their paths.

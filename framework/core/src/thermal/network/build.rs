@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::faults;
-use super::parts::{Exchanger, Law, Lawful, Link, Motor, Network, Rate};
+use super::parts::{Exchanger, InverterSeat, Law, Lawful, Link, Motor, Network, Rate};
 use crate::attach::dangling;
 use crate::description::network::{ExchangerEntry, LinkEntry, NetworkEntry};
 use crate::description::{GearboxEntry, NetworkChoice};
@@ -112,6 +112,14 @@ impl Network {
             })
         });
         let motors = motors.collect();
+        let inverters = around.machines.iter().filter_map(|machine| {
+            let node = machine.inverter_node?;
+            Some(InverterSeat {
+                machine: Arc::clone(machine),
+                node,
+            })
+        });
+        let inverters = inverters.collect();
         let built = Self {
             names: around.names.names().to_vec(),
             capacities: std::iter::once(0.0).chain(all().map(|n| n.heat_capacity)).collect(),
@@ -124,6 +132,7 @@ impl Network {
             exchangers,
             sources,
             motors,
+            inverters,
             heat: Vec::new(),
             oil: around.names.of_oil(""),
             pumped: network.oil_flow,

@@ -21,6 +21,8 @@ pub struct Heats {
     pub parts: Vec<f64>,
     /// Loss of each motor in rotor and stator.
     pub motors: Vec<[f64; 2]>,
+    /// Loss of each inverter that heats a node.
+    pub inverters: Vec<f64>,
     /// Heat from other sources.
     pub sources: f64,
     /// Heat stored in the nodes.
@@ -44,7 +46,8 @@ pub struct Heats {
 impl Heats {
     /// Total heat input of the nodes.
     pub fn heat_input(&self) -> f64 {
-        self.parts.iter().sum::<f64>() + self.motors.iter().flatten().sum::<f64>() + self.sources
+        let machines = self.motors.iter().flatten().sum::<f64>() + self.inverters.iter().sum::<f64>();
+        self.parts.iter().sum::<f64>() + machines + self.sources
     }
 
     /// Energy balance error: heat input minus stored heat and outgoing heat; zero to rounding.
@@ -69,6 +72,7 @@ impl Heats {
         each(&mut self.parts, &more.parts);
         each(&mut self.held, &more.held);
         each(&mut self.exchangers, &more.exchangers);
+        each(&mut self.inverters, &more.inverters);
         self.motors.resize(self.motors.len().max(more.motors.len()), [0.0; 2]);
         for (sum, x) in self.motors.iter_mut().zip(&more.motors) {
             one(&mut sum[0], x[0]);
@@ -135,6 +139,8 @@ pub(super) struct Warm {
     pub heat: Vec<f64>,
     /// Loss of each motor in rotor and stator. \[W\]
     pub motors: Vec<[f64; 2]>,
+    /// Loss of each inverter that heats a node. \[W\]
+    pub inverters: Vec<f64>,
     /// Heat from other sources. \[W\]
     pub sources: f64,
     /// True if a motor was outside its map.
@@ -188,6 +194,7 @@ impl Transmission {
         warm.heat.resize(network.names().len(), 0.0);
         network.add_parts(self, point, &mut warm.heat);
         warm.beyond_map = network.add_motors(temperatures, point, &mut warm.heat, &mut warm.motors);
+        network.add_inverters(self, temperatures, point, &mut warm.heat, &mut warm.inverters);
         warm.machines = self.machines_at(&point.speeds, &point.port_torques, temperatures);
         warm.sources = 0.0;
         for (node, watts) in network.sources() {

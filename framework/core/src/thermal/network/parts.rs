@@ -81,6 +81,12 @@ pub(super) struct Motor {
     pub(super) stator: usize,
 }
 
+/// An inverter that heats a node.
+pub(super) struct InverterSeat {
+    pub(super) machine: Arc<Machine>,
+    pub(super) node: usize,
+}
+
 /// A thermal network.
 pub struct Network {
     pub(super) names: Vec<String>,
@@ -94,6 +100,7 @@ pub struct Network {
     pub(super) exchangers: Vec<Exchanger>,
     pub(super) sources: Vec<(usize, f64)>,
     pub(super) motors: Vec<Motor>,
+    pub(super) inverters: Vec<InverterSeat>,
     pub(super) heat: Vec<HeatPath>,
     /// The oil of the housing.
     pub(super) oil: usize,
@@ -196,6 +203,10 @@ impl Network {
     /// Paths of the motors.
     pub fn motors(&self) -> impl ExactSizeIterator<Item = &str> {
         self.motors.iter().map(|m| m.machine.path.as_str())
+    }
+    /// Paths of the machines whose inverters heat a node.
+    pub fn inverters(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.inverters.iter().map(|seat| seat.machine.path.as_str())
     }
     /// Heat from other sources by node. \[W\]
     pub fn sources(&self) -> &[(usize, f64)] {

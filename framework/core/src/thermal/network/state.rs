@@ -36,7 +36,7 @@ impl Network {
         for motor in &self.motors {
             let machine = &motor.machine;
             let (speed, torque) = (point.speeds[machine.member], point.port_torques[machine.member]);
-            // The windings are in the stator; the inverter has a cooler of its own.
+            // The windings are in the stator.
             let found = machine.loss(speed, torque, temperatures[motor.stator]);
             outside |= found.outside;
             let losses_of_motor = machine.in_rotor_and_stator(speed, found.machine);
@@ -45,6 +45,25 @@ impl Network {
             losses.push(losses_of_motor);
         }
         outside
+    }
+    /// Adds the losses of all inverters with a node to the heat of the nodes, and returns them: those of
+    /// [`Transmission::machines_at`], which are part of what the DC link supplies. \[W\]
+    pub(super) fn add_inverters(
+        &self,
+        transmission: &Transmission,
+        temperatures: &[f64],
+        point: &Snapshot,
+        heat: &mut [f64],
+        losses: &mut Vec<f64>,
+    ) {
+        losses.clear();
+        for seat in &self.inverters {
+            let member = seat.machine.member;
+            let (speed, torque) = (point.speeds[member], point.port_torques[member]);
+            let state = transmission.machine_at(&seat.machine, speed, torque, temperatures);
+            heat[seat.node] += state.inverter;
+            losses.push(state.inverter);
+        }
     }
     /// Initial temperatures: prescribed ones, else stated ones, else `start`, else the ambient temperature. \[degC\]
     pub fn start(&self, start: Option<f64>, around: &Surroundings) -> Vec<f64> {

@@ -52,6 +52,8 @@ pub struct Steady {
     pub heat: Vec<f64>,
     /// Loss of each motor in rotor and stator. \[W\]
     pub motors: Vec<[f64; 2]>,
+    /// Loss of each inverter that heats a node. \[W\]
+    pub inverters: Vec<f64>,
     /// Incoming heat minus outgoing heat. \[W\]
     pub residual: f64,
     /// Number of loss evaluations.
@@ -161,6 +163,7 @@ impl<'m> Seeking<'m> {
                 leaving: Leaving::default(),
                 heat: Vec::new(),
                 motors: Vec::new(),
+                inverters: Vec::new(),
                 residual: 0.0,
                 evaluations: 0,
                 history: Vec::new(),
@@ -222,6 +225,7 @@ impl<'m> Seeking<'m> {
                 steady.residual = warm.heat.iter().sum::<f64>() - steady.leaving.total();
                 steady.heat.clone_from(&warm.heat);
                 steady.motors.clone_from(&warm.motors);
+                steady.inverters.clone_from(&warm.inverters);
             }
             if !passes {
                 steady.temperatures = after;

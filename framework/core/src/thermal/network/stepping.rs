@@ -290,6 +290,7 @@ impl Trial {
             duration: length,
             parts: each(&warm.point.watts),
             motors: warm.motors.iter().map(|m| m.map(|x| x * length)).collect(),
+            inverters: each(&warm.inverters),
             sources: warm.sources * length,
             stored: warm.circuit.stored(before, &self.after),
             held: each(&leaving.held),

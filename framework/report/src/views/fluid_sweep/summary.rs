@@ -50,6 +50,19 @@ pub fn add(outcome: &FluidSweepOutcome, page: &mut Page) {
                 set.unit,
                 detail,
             );
+            if let (Some(used), Some(now)) = (duty.least_consumption, duty.present.consumption) {
+                page.key_figure(
+                    &format!("least consumption, {of}"),
+                    short(used.consumption_kwh_per_100_km),
+                    "kWh/100 km",
+                    format!(
+                        "{} {}; {} kWh/100 km with the present oil",
+                        short(used.value),
+                        set.unit,
+                        short(now.consumption_kwh_per_100_km)
+                    ),
+                );
+            }
             if least.at_end_of_range {
                 page.careful
                     .push(format!("{of}: the lowest loss is at the end of the range of oils"));

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{CompareEntry, unit};
+use crate::analyses::gears::stated_gear;
 use crate::analyses::measurable::is_measurable;
 use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::rows::{RowsPlan, Solved};
@@ -141,7 +142,7 @@ pub(super) fn plan<'a>(cx: &Planner<'a>, entry: &'a CompareEntry, data: &Data) -
     let bind: Vec<&str> = entry.bind.ids().collect();
     let measured = cx.read(&format!("{}.data", cx.path()), data, &bind)?;
     let gearbox = cx.gearbox(entry.gearbox.as_ref())?;
-    let gear = entry.gear.as_deref();
+    let gear = stated_gear(cx, entry.gear.as_ref())?;
     RowsPlan::new(cx, gearbox, &entry.against, (measured, &entry.bind), gear, false)
 }
 

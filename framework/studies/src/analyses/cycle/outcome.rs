@@ -165,6 +165,9 @@ pub struct HeatOfDuty {
     /// Heat from other sources. [J]
     #[serde(skip)]
     pub sources_j: f64,
+    /// Heat of the inverters that heat a node. [J]
+    #[serde(skip)]
+    pub inverters_j: f64,
     /// Heat into all nodes with given temperature, also if given only part of the time.
     #[serde(skip)]
     pub taken: Vec<HeatOfNode>,

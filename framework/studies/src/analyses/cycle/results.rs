@@ -153,6 +153,7 @@ fn heat(t: &Transmission, driven: &Driven) -> Option<HeatOfDuty> {
         carried_away_j: total.flows,
         residual_share: total.residual().abs() / total.heat_input().abs().max(1e-300),
         sources_j: total.sources,
+        inverters_j: total.inverters.iter().sum(),
         taken: named()
             .filter(|(i, _)| takes(*i, total.held.get(*i)))
             .map(|(i, name)| node(name, total.held.get(i).copied()))

@@ -4,6 +4,7 @@ use super::outcome::{CycleOfSweep, LimitOfSweep, NotesOfSet, SweepOutcome};
 use super::{Solved, SweepEntry, VariedPaths, compact, second_of, value_of};
 use crate::analyses::cycle::limited_in_cycles;
 use crate::analyses::duties::DrivePlan;
+use crate::analyses::gears::GearOfCycles;
 use crate::analyses::limits::Limit;
 use crate::analyses::ranges::published;
 use crate::analyses::shares::together;
@@ -25,6 +26,7 @@ impl SweepEntry {
         plan.refuse_broken(engine, &driven)?;
         let DrivePlan { built, duties } = plan;
         let names = together(built.iter().map(|b| &b.transmission), self.by);
+        let gear = self.gear.as_ref().map(GearOfCycles::from);
         let mut cycles = Vec::new();
         for ((b, driven), (limits, places)) in built.iter().zip(&driven).zip(limits.iter().zip(&solved.places)) {
             let limited = limited_in_cycles(engine, b, limits, duties, driven)?;
@@ -33,7 +35,7 @@ impl SweepEntry {
             for (k, (mean, driven)) in means.into_iter().zip(driven).enumerate() {
                 cycles.push(CycleOfSweep {
                     model_set: b.name.clone(),
-                    gear: gear_of(self.gear.as_deref(), t).to_owned(),
+                    gear: gear.map_or_else(|| gear_of(None, t), GearOfCycles::word).to_owned(),
                     path: varied.0.words(),
                     value: value_of(&varied.0, places[0]),
                     second: second_of(varied, *places),

@@ -1,18 +1,21 @@
 //! The choice of gears in a simulated cycle.
 //!
 //! What an interval draws is evaluated in every gear at the temperatures at its start, or, while intervals are simulated together, at those
-//! of the first of them if the choice does not depend on the difference.
+//! of the first of them if the choice does not depend on the difference. Where the simulation asks for the same point at the same
+//! temperatures, it takes over what was evaluated in the chosen gear.
 
 use std::collections::VecDeque;
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::evaluate::{Noting, Point};
+use gearloss_framework::evaluate::{Noting, Point, Snapshot};
 use gearloss_framework::machine::Machine;
 use gearloss_framework::real::LANES;
 use gearloss_framework::transmission::Transmission;
 use serde::{Deserialize, Serialize};
 
-use super::{Asked, At, Cases, Driven, Ride, around, ask, drive_through, point_of, steady_temperatures, wheels};
+use super::{
+    Asked, At, Cases, Driven, Ride, Settled, around, ask, drive_through, limited, point_of, steady_temperatures, wheels,
+};
 use crate::codes;
 use crate::duty::{Demand, Interval, ShiftMap, Vehicle};
 use crate::points::gear_rule::{Offer, Pick, Rule, Shifting, energy, least_energy};
@@ -103,14 +106,34 @@ pub(super) struct Chooser<'a> {
     /// Candidate of each interval, if they are known.
     given: Option<Vec<usize>>,
     now: Shifting,
-    /// What the next intervals draw, at temperatures that are given.
-    ahead: VecDeque<Vec<Offer>>,
+    /// The next intervals in every gear.
+    ahead: VecDeque<Vec<Offered>>,
     /// Number of intervals that have passed.
     passed: usize,
+    /// Steps of a thermal network have other temperatures than the choice, so that what it notes is not used.
+    noting: Noting,
+}
+
+/// An interval in one gear.
+struct Offered {
+    offer: Offer,
+    solved: Option<Solved>,
 }
 
 /// A solved demand.
+pub(super) struct Solved {
+    pub asked: Asked,
+    /// True if the demand is the same at the temperatures of a later time.
+    pub is_clear: bool,
+    /// The temperatures if they are those of an equilibrium.
+    pub found: Option<Found>,
+    /// The point; absent if the demand is limited and only what it exceeds was evaluated.
+    pub point: Option<Snapshot>,
+}
+
+/// What an interval draws in a gear.
 struct Evaluated {
+    solved: Solved,
     /// Torque of the reference port. \[Nm\]
     torque: f64,
     loss: f64,
@@ -119,8 +142,12 @@ struct Evaluated {
     excess: f64,
 }
 
-/// Fewer points are faster one by one.
-const FEW: usize = 4;
+/// Number of intervals that are evaluated together where their temperatures are given: several times the lanes, because only intervals of
+/// one gear and one direction of power share them.
+const AHEAD: usize = 4 * LANES;
+
+/// Relative excess over an envelope that is rounding.
+const ROUNDING: f64 = 1e-9;
 
 impl<'a> Chooser<'a> {
     /// A chooser for a cycle, with the gears among which it chooses.
@@ -133,6 +160,8 @@ impl<'a> Chooser<'a> {
         };
         check_demands(cases, choosing.choice)?;
         let candidates = candidates(cases, choosing.choice)?;
+        let ride = cases.ride;
+        let marches = ride.oil == OilTemperature::Network && !ride.spectrum;
         Ok(Some(Self {
             choosing,
             candidates,
@@ -140,7 +169,20 @@ impl<'a> Chooser<'a> {
             now: Shifting::default(),
             ahead: VecDeque::new(),
             passed: 0,
+            noting: if marches { Noting::Muted } else { Noting::Seen },
         }))
+    }
+
+    /// The demand of one of the next intervals, as it was solved in a gear state.
+    pub fn solved(&self, interval: usize, state: usize) -> Option<&Solved> {
+        let gear = self.candidates.iter().position(|candidate| candidate.state == state)?;
+        self.ahead.get(interval)?.get(gear)?.solved.as_ref()
+    }
+
+    /// The same of the next interval, which is simulated.
+    pub fn take_solved(&mut self, state: usize) -> Option<Solved> {
+        let gear = self.candidates.iter().position(|candidate| candidate.state == state)?;
+        self.ahead.front_mut()?.get_mut(gear)?.solved.take()
     }
 
     /// The gears of the first `count` of the remaining intervals. `warm` are the temperatures of a thermal network at the start of the first.
@@ -153,11 +195,14 @@ impl<'a> Chooser<'a> {
     ) -> Result<Vec<Chosen>, Vec<Diagnostic>> {
         let intervals = &rest[..count];
         let needs_offers = self.given.is_none() && !matches!(self.choosing.choice.by, ChosenBy::Map(_));
-        let offers = match (needs_offers, warm) {
-            (false, _) => Vec::new(),
-            (true, Some(warm)) => self.offers(cases, intervals, &|_| warm, &mut driven.evaluations)?,
-            (true, None) => self.offers_in_steady_state(cases, rest, count, &mut driven.evaluations)?,
-        };
+        match (needs_offers, warm) {
+            (false, _) => {}
+            (true, Some(warm)) => {
+                let offered = self.offers(cases, intervals, &|_| warm, &mut driven.evaluations)?;
+                self.ahead = offered.into();
+            }
+            (true, None) => self.look_ahead(cases, rest, count, &mut driven.evaluations)?,
+        }
         let mut now = self.now;
         let mut all = Vec::with_capacity(count);
         for (i, interval) in intervals.iter().enumerate() {
@@ -176,7 +221,7 @@ impl<'a> Chooser<'a> {
                 (None, ChosenBy::Rule(rule) | ChosenBy::Optimum(rule)) => {
                     let rule = if cases.ride.spectrum { Rule::default() } else { *rule };
                     let before = if cases.ride.spectrum { Shifting::default() } else { now };
-                    rule.pick(before, &offers[i])
+                    rule.pick(before, &offers_in(&self.ahead[i]))
                 }
             };
             // A cycle starts when the vehicle does.
@@ -255,30 +300,31 @@ impl<'a> Chooser<'a> {
         self.candidates.iter().position(is_named).unwrap_or(0)
     }
 
-    /// What the next intervals draw where every interval has its own temperature, given or at equilibrium.
-    fn offers_in_steady_state(
+    /// Evaluates what the next intervals draw where every interval has its own temperature, given or at equilibrium.
+    fn look_ahead(
         &mut self,
         cases: &mut Cases<'_>,
         rest: &[Interval],
         count: usize,
         evaluations: &mut usize,
-    ) -> Result<Vec<Vec<Offer>>, Vec<Diagnostic>> {
-        if self.ahead.len() < count {
-            let given = |interval: &Interval| interval.given.oil_temperature.or(cases.ride.oil.given());
-            let given: Vec<[f64; 1]> = rest.iter().take(LANES).map_while(|i| Some([given(i)?])).collect();
-            self.ahead = if given.len() >= count {
-                let temperatures = |i: usize| given[i].as_slice();
-                self.offers(cases, &rest[..given.len()], &temperatures, evaluations)?
-                    .into()
-            } else {
-                let offers: Result<Vec<_>, _> = rest[..count]
-                    .iter()
-                    .map(|interval| self.offers_at_equilibrium(cases, interval, evaluations))
-                    .collect();
-                offers?.into()
-            };
+    ) -> Result<(), Vec<Diagnostic>> {
+        if self.ahead.len() >= count {
+            return Ok(());
         }
-        Ok(self.ahead.iter().take(count).cloned().collect())
+        let given = |interval: &Interval| interval.given.oil_temperature.or(cases.ride.oil.given());
+        let given: Vec<[f64; 1]> = rest.iter().take(AHEAD).map_while(|i| Some([given(i)?])).collect();
+        self.ahead = if given.len() >= count {
+            let temperatures = |i: usize| given[i].as_slice();
+            self.offers(cases, &rest[..given.len()], &temperatures, evaluations)?
+                .into()
+        } else {
+            let offers: Result<Vec<_>, _> = rest[..count]
+                .iter()
+                .map(|interval| self.offers_at_equilibrium(cases, interval, evaluations))
+                .collect();
+            offers?.into()
+        };
+        Ok(())
     }
 
     /// What an interval draws in each gear at the equilibrium of that gear.
@@ -287,7 +333,7 @@ impl<'a> Chooser<'a> {
         cases: &mut Cases<'_>,
         interval: &Interval,
         evaluations: &mut usize,
-    ) -> Result<Vec<Offer>, Vec<Diagnostic>> {
+    ) -> Result<Vec<Offered>, Vec<Diagnostic>> {
         let mut offers = Vec::new();
         for candidate in &self.candidates {
             let name = &cases.transmission.states()[candidate.state].name;
@@ -299,20 +345,17 @@ impl<'a> Chooser<'a> {
                 continue;
             };
             *evaluations += warm.evaluations();
-            let temperatures = warm.temperatures().to_vec();
-            let one = Self {
-                choosing: self.choosing,
-                candidates: vec![Candidate {
-                    state: candidate.state,
-                    inertias: Vec::new(),
-                }],
-                given: None,
-                now: self.now,
-                ahead: VecDeque::new(),
-                passed: 0,
+            let one = std::slice::from_ref(interval);
+            let found = self.in_gear(cases, one, candidate, &|_| warm.temperatures(), evaluations)?;
+            // A demand that may be limited has its equilibrium with the limit.
+            let keep = |solved: Solved| Solved {
+                found: Some(warm.clone()),
+                ..solved
             };
-            let found = one.offers(cases, std::slice::from_ref(interval), &|_| &temperatures, evaluations)?;
-            offers.push(found[0][0]);
+            offers.extend(found.into_iter().map(|offered| Offered {
+                solved: offered.solved.filter(|_| asked.limited.is_none()).map(keep),
+                ..offered
+            }));
         }
         Ok(offers)
     }
@@ -324,43 +367,60 @@ impl<'a> Chooser<'a> {
         intervals: &[Interval],
         temperatures: &dyn Fn(usize) -> &'t [f64],
         evaluations: &mut usize,
-    ) -> Result<Vec<Vec<Offer>>, Vec<Diagnostic>> {
-        let mut all: Vec<Vec<Offer>> = vec![Vec::with_capacity(self.candidates.len()); intervals.len()];
+    ) -> Result<Vec<Vec<Offered>>, Vec<Diagnostic>> {
+        let mut all: Vec<Vec<Offered>> = Vec::new();
+        all.resize_with(intervals.len(), || Vec::with_capacity(self.candidates.len()));
         for candidate in &self.candidates {
-            let name = &cases.transmission.states()[candidate.state].name;
-            let mut asked = Vec::new();
-            for (i, interval) in intervals.iter().enumerate() {
-                let is_moving = interval.demand != Demand::Rest && interval.given.gear.is_none();
-                if is_moving {
-                    let around = around(cases.ride, Some(interval));
-                    asked.push((i, ask(cases, interval, &around, name)?));
-                }
-            }
-            let mut found = self.evaluate(cases, intervals, &asked, temperatures);
-            *evaluations += asked.len();
-            self.limit(cases, intervals, (&asked, &mut found), temperatures, evaluations)?;
-            let mut found = asked.iter().map(|(i, _)| *i).zip(found).peekable();
-            for (i, offers) in all.iter_mut().enumerate() {
-                let offer = match found.next_if(|(place, _)| *place == i) {
-                    Some((_, Some(found))) => Offer {
-                        power: if has_machine(cases.transmission, cases.ride) {
-                            found.drawn
-                        } else {
-                            found.loss
-                        },
-                        loss: found.loss,
-                        excess: found.excess,
-                    },
-                    Some((_, None)) => NO_SOLUTION,
-                    None => Offer::REST,
-                };
-                offers.push(offer);
+            let found = self.in_gear(cases, intervals, candidate, temperatures, evaluations)?;
+            for (offers, offered) in all.iter_mut().zip(found) {
+                offers.push(offered);
             }
         }
         Ok(all)
     }
 
-    /// Replaces what exceeds the limits of regeneration by what is regenerated.
+    /// What intervals draw in a gear at temperatures of each.
+    fn in_gear<'t>(
+        &self,
+        cases: &mut Cases<'_>,
+        intervals: &[Interval],
+        candidate: &Candidate,
+        temperatures: &dyn Fn(usize) -> &'t [f64],
+        evaluations: &mut usize,
+    ) -> Result<Vec<Offered>, Vec<Diagnostic>> {
+        let name = &cases.transmission.states()[candidate.state].name;
+        let mut asked = Vec::new();
+        for (i, interval) in intervals.iter().enumerate() {
+            let is_moving = interval.demand != Demand::Rest && interval.given.gear.is_none();
+            if is_moving {
+                let around = around(cases.ride, Some(interval));
+                asked.push((i, ask(cases, interval, &around, name)?));
+            }
+        }
+        let mut found = self.evaluate(cases, intervals, &asked, temperatures);
+        *evaluations += asked.len();
+        self.limit(cases, intervals, (&asked, &mut found), temperatures, evaluations)?;
+        let has_machine = has_machine(cases.transmission, cases.ride);
+        let mut found = asked.iter().map(|(i, _)| *i).zip(found).peekable();
+        let offered = |i: usize| match found.next_if(|(place, _)| *place == i) {
+            Some((_, Some(found))) => Offered {
+                offer: Offer {
+                    power: if has_machine { found.drawn } else { found.loss },
+                    loss: found.loss,
+                    excess: found.excess,
+                },
+                solved: Some(found.solved),
+            },
+            Some((_, None)) => NO_SOLUTION,
+            None => Offered {
+                offer: Offer::REST,
+                solved: None,
+            },
+        };
+        Ok((0..intervals.len()).map(offered).collect())
+    }
+
+    /// Limits demands to what is regenerated, and notes those that are beyond an envelope.
     fn limit<'t>(
         &self,
         cases: &mut Cases<'_>,
@@ -369,36 +429,37 @@ impl<'a> Chooser<'a> {
         temperatures: &dyn Fn(usize) -> &'t [f64],
         evaluations: &mut usize,
     ) -> Result<(), Vec<Diagnostic>> {
-        let Some(vehicle) = cases.ride.vehicle else {
-            return Ok(());
-        };
-        let (mut places, mut limited) = (Vec::new(), Vec::new());
+        let (mut places, mut again) = (Vec::new(), Vec::new());
         for (k, (i, asked)) in asked.iter().enumerate() {
-            let (Some([_, input_speed]), Some(found)) = (asked.limited, &found[k]) else {
+            let (Some(lossless), Some(found)) = (asked.limited, &mut found[k]) else {
                 continue;
             };
             let speed = intervals[*i].given.vehicle_speed.unwrap_or(0.0);
-            let torque = vehicle.regained(found.torque, input_speed, speed);
-            if torque > found.torque {
-                let gear = cases.known[asked.place].0.0.clone();
-                let place = cases.place(&gear, At::Input)?;
-                places.push(k);
-                limited.push((
-                    *i,
-                    Asked {
-                        place,
-                        torque,
-                        ..*asked
-                    },
-                ));
+            let gear = cases.known[asked.place].0.0.clone();
+            let settled = limited(cases, *asked, (found.torque, lossless, speed), &gear)?;
+            let Settled {
+                asked: demand,
+                is_clear,
+            } = settled;
+            found.solved.is_clear = is_clear;
+            if demand.place == asked.place {
+                continue;
+            }
+            if demand.wanted.is_some() {
+                // What a gear lacks is no saving: the offer remains that of the whole demand.
+                (found.solved.asked, found.solved.point) = (demand, None);
+            } else {
+                places.push((k, is_clear));
+                again.push((*i, demand));
             }
         }
-        *evaluations += limited.len();
-        for (k, again) in places
-            .into_iter()
-            .zip(self.evaluate(cases, intervals, &limited, temperatures))
-        {
-            found[k] = again;
+        *evaluations += again.len();
+        let evaluated = self.evaluate(cases, intervals, &again, temperatures);
+        for ((k, is_clear), mut evaluated) in places.into_iter().zip(evaluated) {
+            if let Some(evaluated) = &mut evaluated {
+                evaluated.solved.is_clear = is_clear;
+            }
+            found[k] = evaluated;
         }
         Ok(())
     }
@@ -427,51 +488,27 @@ impl<'a> Chooser<'a> {
                 let (i, asked) = &asked[*k];
                 point_of(case, ride, asked, intervals[*i].inclination)
             };
-            for some in alike.chunks(LANES) {
-                let points: Vec<Point<'_>> = some.iter().map(point).collect();
-                let warm = |lane: usize| temperatures(asked[some[lane]].0);
-                if some.len() >= FEW {
-                    let block = t.evaluate_together(case, &points, &warm, Noting::Muted, scratch);
-                    for (lane, k) in some.iter().enumerate() {
-                        if !block.is_alone(lane) && block.status(lane).has_flow() {
-                            let speed = |member: usize| block.speeds(member)[lane];
-                            let torque = |member: usize| block.port_torques(member)[lane];
-                            let read = self.read(t, (&speed, &torque), block.losses()[lane], warm(lane));
-                            found[*k] = Some(read);
-                        }
-                    }
-                }
-                for (lane, k) in some
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, k)| found[**k].is_none())
-                    .collect::<Vec<_>>()
-                {
-                    let scratch = scratch.alone();
-                    if t.try_point(case, &points[lane], warm(lane), scratch, Noting::Muted)
-                        .is_ok()
-                    {
-                        let speed = |member: usize| scratch.speeds()[member];
-                        let torque = |member: usize| scratch.port_torque(member);
-                        let loss = scratch.watts().iter().sum();
-                        found[*k] = Some(self.read(t, (&speed, &torque), loss, warm(lane)));
-                    }
-                }
+            let points: Vec<Point<'_>> = alike.iter().map(point).collect();
+            let warm = |k: usize| temperatures(asked[alike[k]].0);
+            let solved = match self.noting {
+                Noting::Muted => t.snapshots(case, &points, &warm, Noting::Muted, scratch),
+                // Points side by side note the range of all of them, also of those whose gear is not chosen.
+                noting => (0..points.len())
+                    .map(|n| t.snapshot(case, &points[n], warm(n), noting, scratch))
+                    .collect(),
+            };
+            for (n, (k, point)) in alike.iter().zip(solved).enumerate() {
+                found[*k] = point.ok().map(|point| self.read(t, asked[*k].1, point, warm(n)));
             }
         }
         found
     }
 
-    /// What a solved point draws, from speeds (rad/s) and port torques (Nm) of members.
-    fn read(
-        &self,
-        t: &Transmission,
-        (speed, torque): (&dyn Fn(usize) -> f64, &dyn Fn(usize) -> f64),
-        loss: f64,
-        temperatures: &[f64],
-    ) -> Evaluated {
+    /// What a solved demand draws.
+    fn read(&self, t: &Transmission, asked: Asked, point: Snapshot, temperatures: &[f64]) -> Evaluated {
         let reference = t.ports()[t.reference_port()].member;
-        let (w, m) = (speed(reference), torque(reference));
+        let (speeds, torques) = (&point.speeds, &point.port_torques);
+        let (w, m) = (speeds[reference], torques[reference]);
         let choice = self.choosing.choice;
         let over = |x: f64, most: Option<f64>| most.map_or(0.0, |most| x.abs() / most - 1.0);
         let mut excess = over(w, choice.most_speed).max(over(m, choice.most_torque)).max(0.0);
@@ -483,7 +520,7 @@ impl<'a> Chooser<'a> {
                 .machine
                 .is_some_and(|stated| std::ptr::eq(stated, machine));
             let member = if is_stated { reference } else { machine.member };
-            let state = t.machine_at(machine, speed(member), torque(member), temperatures);
+            let state = t.machine_at(machine, speeds[member], torques[member], temperatures);
             drawn += state.machine + state.inverter;
             if member != reference {
                 drawn += state.shaft();
@@ -492,18 +529,32 @@ impl<'a> Chooser<'a> {
         }
         Evaluated {
             torque: m,
-            loss,
+            loss: point.watts.iter().sum(),
             drawn,
             excess,
+            solved: Solved {
+                asked,
+                is_clear: true,
+                found: None,
+                point: Some(point),
+            },
         }
     }
 }
 
+/// The offers of an interval.
+fn offers_in(offered: &[Offered]) -> Vec<Offer> {
+    offered.iter().map(|offered| offered.offer).collect()
+}
+
 /// A gear without a solution.
-const NO_SOLUTION: Offer = Offer {
-    power: f64::MAX,
-    loss: 0.0,
-    excess: f64::INFINITY,
+const NO_SOLUTION: Offered = Offered {
+    offer: Offer {
+        power: f64::MAX,
+        loss: 0.0,
+        excess: f64::INFINITY,
+    },
+    solved: None,
 };
 
 /// A gear that does not depend on what it draws.
@@ -520,7 +571,8 @@ fn settled(gear: usize) -> Pick {
 fn beyond(machine: &Machine, speed: f64, torque: f64) -> f64 {
     let map = machine.map().map_or(0.0, |map| map.excess(speed, torque));
     let envelope = machine.envelope();
-    map.max(envelope.map_or(0.0, |envelope| torque.abs() / envelope.most(speed) - 1.0))
+    let over = envelope.map_or(0.0, |envelope| torque.abs() / envelope.most(speed) - 1.0);
+    if over > ROUNDING { map.max(over) } else { map }
 }
 
 /// Whether gears are compared by the power of machines; otherwise by the loss of the gearbox.
@@ -643,7 +695,7 @@ pub(super) fn drive_optimum(
     progress: &dyn Fn(usize) -> bool,
 ) -> Result<Option<Driven>, Vec<Diagnostic>> {
     let mut cases = Cases::new(t, ride)?;
-    let Some(mut chooser) = Chooser::new(&mut cases)? else {
+    let Some(chooser) = Chooser::new(&mut cases)?.map(Chooser::muted) else {
         return drive_through(t, ride, None, progress);
     };
     let Some(by_rule) = drive_through(t, ride, None, progress)? else {
@@ -660,9 +712,10 @@ pub(super) fn drive_optimum(
     let at = |i: usize| starts[if has_network { i } else { i + 1 }];
     let mut evaluations = by_rule.evaluations;
     let mut offers = Vec::with_capacity(ride.intervals.len());
-    for first in (0..ride.intervals.len()).step_by(LANES) {
-        let some = &ride.intervals[first..ride.intervals.len().min(first + LANES)];
-        offers.extend(chooser.offers(&mut cases, some, &|i| at(first + i), &mut evaluations)?);
+    for first in (0..ride.intervals.len()).step_by(AHEAD) {
+        let some = &ride.intervals[first..ride.intervals.len().min(first + AHEAD)];
+        let offered = chooser.offers(&mut cases, some, &|i| at(first + i), &mut evaluations)?;
+        offers.extend(offered.iter().map(|offered| offers_in(offered)));
     }
     let durations: Vec<f64> = ride.intervals.iter().map(|interval| interval.duration).collect();
     let has_machine = has_machine(t, ride);
@@ -683,8 +736,7 @@ pub(super) fn drive_optimum(
             .filter(|stretch| stretch.shift.is_some())
             .count(),
     };
-    chooser.given = Some(best);
-    let driven = drive_through(t, ride, chooser.given, &|_| progress(0))?;
+    let driven = drive_through(t, ride, Some(best), &|_| progress(0))?;
     Ok(driven.map(|driven| Driven {
         optimum: Some(optimum),
         evaluations: driven.evaluations + evaluations,
@@ -698,6 +750,12 @@ impl Chooser<'_> {
         self.given = given;
         self
     }
+
+    /// Without notes: for a comparison alone.
+    fn muted(mut self) -> Self {
+        self.noting = Noting::Muted;
+        self
+    }
 }
 
 /// What the intervals of a ride draw in the gears of its choice at given temperatures of the oil; with several gears, in the first one.
@@ -706,16 +764,16 @@ impl Chooser<'_> {
 /// If no gear can be chosen, or a temperature is not given.
 pub fn offers_of(t: &Transmission, ride: &Ride<'_>) -> Result<Vec<Offer>, Vec<Diagnostic>> {
     let mut cases = Cases::new(t, ride)?;
-    let Some(chooser) = Chooser::new(&mut cases)? else {
+    let Some(chooser) = Chooser::new(&mut cases)?.map(Chooser::muted) else {
         return Ok(Vec::new());
     };
     let mut all = Vec::with_capacity(ride.intervals.len());
     let mut evaluations = 0;
-    for some in ride.intervals.chunks(LANES) {
+    for some in ride.intervals.chunks(AHEAD) {
         let oil = |interval: &Interval| interval.given.oil_temperature.or(ride.oil.given()).unwrap_or(f64::NAN);
         let oils: Vec<[f64; 1]> = some.iter().map(|interval| [oil(interval)]).collect();
         let offers = chooser.offers(&mut cases, some, &|i| oils[i].as_slice(), &mut evaluations)?;
-        all.extend(offers.into_iter().map(|offers| offers[0]));
+        all.extend(offers.iter().map(|offers| offers[0].offer));
     }
     Ok(all)
 }
