@@ -264,6 +264,12 @@ fn what_is_not_determined_is_refused() {
             "E0306",
             "speed_ratio: { port: sun_machine, to: ring_machine, ratio: 1 }",
         ),
+        (
+            EFFICIENT,
+            "locked: [lock]",
+            "E0306",
+            "nothing states how the machines share the torque",
+        ),
         // The set turns as one.
         (
             EFFICIENT,

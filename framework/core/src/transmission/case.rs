@@ -267,25 +267,29 @@ impl Transmission {
             .iter()
             .map(|port| self.ports[*port].name.as_str())
             .collect();
-        Err(
-            if let ([.., to, port], true) = (&free[..], torques <= 1 && self.machines().len() > 1) {
-                error.help(format!(
-                "keep a ratio of two speeds: `gear_states: {{ {}: {{ engaged: [{}], speed_ratio: {{ port: {port}, to: {to}, ratio: 1 }} }} }}`; `solve` \
-                 takes any speeds",
+        let has_two = self.machines().len() > 1;
+        Err(if has_two && torques > 1 {
+            error.help(
+                "`solve` takes all of them; an analysis does not, since nothing states how the machines share the torque: use a gear in which a \
+                 planetary set divides it",
+            )
+        } else if let ([.., to, port], true) = (&free[..], has_two) {
+            error.help(format!(
+                "keep a ratio of two speeds: `gear_states: {{ {}: {{ engaged: [{}], speed_ratio: {{ port: {port}, to: {to}, ratio: 1 }} }} }}`; \
+                 `solve` takes any speeds",
                 described.name,
                 described.engaged.join(", ")
             ))
-            } else if others.len() > 1 {
-                error
+        } else if others.len() > 1 {
+            error
                 .note(format!("ports: {}, {}", self.ports[reference].name, others.join(", ")))
                 .help(format!(
                     "write `conditions: {{ wheels: [{}] }}` in the study if these have equal speed, or remove ports without power from `ports`",
                     others.join(", ")
                 ))
-            } else {
-                error.help("use a gear state that connects the ports; `spin_loss` includes all states without load")
-            },
-        )
+        } else {
+            error.help("use a gear state that connects the ports; `spin_loss` includes all states without load")
+        })
     }
 
     /// Number of torques that a point of a gear state must state.
