@@ -41,7 +41,7 @@ pub struct Ran {
     /// The pictures that are written, as SVG, by the names of their files without extension.
     pictures: BTreeMap<String, String>,
     /// Files for other programs, by name.
-    files: BTreeMap<String, String>,
+    files: BTreeMap<String, Vec<u8>>,
 }
 
 impl Ran {
@@ -72,6 +72,11 @@ impl Ran {
 
     /// A file of text that an analysis wants to be written.
     pub fn file(&self, name: &str) -> &str {
+        std::str::from_utf8(self.bytes(name)).unwrap()
+    }
+
+    /// A file that an analysis wants to be written.
+    pub fn bytes(&self, name: &str) -> &[u8] {
         let file = self.files.get(name);
         file.unwrap_or_else(|| panic!("no file {name}: {}", self.text))
     }
@@ -111,10 +116,13 @@ impl Ran {
         for line in &page.outside {
             self.text.push_str(&format!("{line}\n"));
         }
-        let texts = outcome.files().into_iter().map(|file| (file.name, file.text));
+        let texts = outcome
+            .files()
+            .into_iter()
+            .map(|file| (file.name, file.text.into_bytes()));
         self.files.extend(texts);
         for file in page.files {
-            self.files.insert(file.name, String::from_utf8(file.bytes).unwrap());
+            self.files.insert(file.name, file.bytes);
         }
         let formats = study.entry.analyses.get(name).unwrap().formats();
         if formats.contains(&Write::Svg) {

@@ -41,7 +41,7 @@ pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
 pub use oil_network::{HoleEntry, OilNetworkEntry, PocketEntry, WindowEntry};
 pub use plausibility::PlausibilityEntry;
 pub use shafts::{AxisEntry, DirectedAxis, LoadEntry, SectionEntry, ShaftEntry, Unsupported};
-pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, TorqueShare};
+pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, RatiosEntry, SpeedRatioEntry, TorqueShare};
 
 /// A gearbox.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

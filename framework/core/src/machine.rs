@@ -181,6 +181,11 @@ impl Machine {
         self.envelope.as_ref()
     }
 
+    /// True if its inverter is off without torque, so that its losses there are those of `freewheel`.
+    pub fn freewheels(&self) -> bool {
+        self.freewheel.is_some()
+    }
+
     /// True if its losses contain those of the inverter, or its inverter is described.
     pub fn has_inverter(&self) -> bool {
         self.inverter.is_some() || self.contains.contains(&Contained::Inverter)

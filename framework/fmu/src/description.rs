@@ -2,6 +2,7 @@
 
 use crate::archive::{Fmu, Version};
 use crate::content::Content;
+use crate::map::OfMap;
 use crate::model::Model;
 use crate::variables::{Causality, Kind, Slot, Use};
 
@@ -80,11 +81,43 @@ pub fn info(fmu: &Fmu<'_>, slot: &Slot) -> Info {
         ),
         Use::Gear => plain("gear", None, &format!("Number of the gear: {}", gears(fmu.content))),
         Use::LossTorque => plain("loss.torque", Some("N.m"), "Loss over the speed of the reference port"),
-        Use::LossPower => plain("loss.power", Some("W"), "Loss of the transmission"),
+        Use::LossPower => plain(
+            "loss.power",
+            Some("W"),
+            match of_map(fmu.content) {
+                OfMap::Gearbox => "Loss of the transmission",
+                OfMap::Unit => "Losses of gearbox, machines and inverters, which become heat",
+                OfMap::Machines => "Losses of machines and inverters, which become heat",
+            },
+        ),
         Use::Efficiency => plain(
             "efficiency",
             None,
-            "Output power over input power, in drive and coast; zero without output power",
+            match of_map(fmu.content) {
+                OfMap::Gearbox => "Output power over input power, in drive and coast; zero without output power",
+                OfMap::Unit => {
+                    "Power at the other ports over the power of the DC link, while generating the reciprocal; zero if no power passes"
+                }
+                OfMap::Machines => {
+                    "Power at the shafts of the machines over the power of the DC link, while generating the reciprocal; zero if no power passes"
+                }
+            },
+        ),
+        Use::DcPower => plain(
+            "dc.power",
+            Some("W"),
+            "Power out of the DC link into the machines, negative while they generate",
+        ),
+        Use::GearboxLoss => plain("loss.gearbox", Some("W"), "Loss of the gearbox"),
+        Use::MachineLoss => plain(
+            "loss.machines",
+            Some("W"),
+            "Losses of the machines, with what their maps contain",
+        ),
+        Use::InverterLoss => plain(
+            "loss.inverters",
+            Some("W"),
+            "Losses of inverters that are described apart",
         ),
         Use::OutputTorque => plain("output.torque", Some("N.m"), "Torque that the other port delivers"),
         Use::OutputSpeed => plain("output.speed", Some("rad/s"), "Speed of the other port"),
@@ -127,6 +160,14 @@ pub fn info(fmu: &Fmu<'_>, slot: &Slot) -> Info {
             "Heat from the oil to the coolant",
         ),
         Use::MotorLoss => plain("loss.motors", Some("W"), "Losses of the motors"),
+    }
+}
+
+/// Whose losses a content has.
+fn of_map(content: &Content) -> OfMap {
+    match content {
+        Content::Map(map) => map.of,
+        Content::Network(_) => OfMap::Gearbox,
     }
 }
 

@@ -43,6 +43,10 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
                         outcome.head.analysis, file.name, file.about
                     ));
                     page.file(file.name, file.bytes);
+                    for file in export.format().further_files(&exported) {
+                        page.line(format!("{}: {}: {}", outcome.head.analysis, file.name, file.about));
+                        page.file(file.name, file.bytes);
+                    }
                 }
                 Err(refusal) => {
                     let path = format!("analyses.{}.export", outcome.head.analysis);
@@ -63,7 +67,15 @@ fn missed(maps: &[&MapOfSet]) -> String {
         .iter()
         .flat_map(|map| [map.export.between, map.export.between_oils]);
     let both = all.flatten().reduce(|a, b| (a.0.max(b.0), a.1.max(b.1)));
+    let of_gearbox = maps.iter().all(|map| map.of.is_gearbox());
+    let (what, unit) = if of_gearbox {
+        ("loss torque", "Nm")
+    } else {
+        ("loss", "W")
+    };
     both.map_or_else(String::new, |(worst, rms)| {
-        format!("; interpolation error of the loss torque between grid points: at most {worst:.4} Nm, {rms:.4} Nm rms")
+        format!(
+            "; interpolation error of the {what} between grid points: at most {worst:.4} {unit}, {rms:.4} {unit} rms"
+        )
     })
 }

@@ -27,6 +27,7 @@ pub mod numbers;
 pub mod oil_property;
 pub mod operating_points;
 pub mod optimise;
+pub mod outside_maps;
 pub mod plan;
 pub mod planner;
 pub mod progress;

@@ -25,6 +25,31 @@ pub struct GearStateRecord {
     #[serde(default)]
     #[schemars(extend("x-refers-to" = ["shafts", "gears"]))]
     pub standstill: Vec<String>,
+    /// Ratio of two speeds that a control keeps, in a gear in which two speeds are free: two machines on one planetary set. It transmits no torque.
+    pub speed_ratio: Option<SpeedRatioEntry>,
+}
+
+/// Speed of a port in a fixed ratio to that of another one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SpeedRatioEntry {
+    /// Port whose speed follows.
+    #[schemars(extend("x-refers-to" = "ports"))]
+    pub port: String,
+    /// Port whose speed it follows.
+    #[schemars(extend("x-refers-to" = "ports"))]
+    pub to: String,
+    /// Speed of `port` over that of `to`. Several make one gear each, with its ratio behind the name, among which `gear: best` chooses. [-]
+    pub ratio: RatiosEntry,
+}
+
+/// One ratio, or several.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum RatiosEntry {
+    /// One. [-]
+    One(#[schemars(range(min = -1e3, max = 1e3))] f64),
+    /// Several. [-]
+    Several(#[schemars(inner(range(min = -1e3, max = 1e3)), length(min = 1))] Vec<f64>),
 }
 
 impl GearStateEntry {
@@ -40,6 +65,13 @@ impl GearStateEntry {
         match self {
             Self::Engaged(_) => &[],
             Self::Full(record) => &record.standstill,
+        }
+    }
+    /// Ratio of two speeds.
+    pub fn speed_ratio(&self) -> Option<&SpeedRatioEntry> {
+        match self {
+            Self::Engaged(_) => None,
+            Self::Full(record) => record.speed_ratio.as_ref(),
         }
     }
 }

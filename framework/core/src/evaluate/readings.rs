@@ -104,7 +104,7 @@ impl Solution<'_> {
                     let torque = coefficient * multiplier;
                     match name {
                         RowName::Wheel(_) => own.ports += torque,
-                        RowName::Path(_) | RowName::Equal(_) => own.meshes += torque,
+                        RowName::Path(_) | RowName::Equal(_) | RowName::Ratio(_) => own.meshes += torque,
                     }
                 }
             }

@@ -47,7 +47,7 @@ pub(crate) fn machines(
                 let message = format!("`{}` is already at port `{}`", other.path, machine.port);
                 found.push(
                     Diagnostic::error(format!("{path}.port"), message)
-                        .help("give each machine a port of its own")
+                        .help("give each machine a port on a shaft of its own, or describe machines of one shaft as one with a map of both")
                         .code(codes::MACHINE),
                 );
             }

@@ -262,7 +262,25 @@ impl Transmission {
             ),
         );
         let error = error.code(codes::GIVEN);
-        Err(if others.len() > 1 {
+        let free: Vec<&str> = described
+            .speed_ports
+            .iter()
+            .map(|port| self.ports[*port].name.as_str())
+            .collect();
+        let has_two = self.machines().len() > 1;
+        Err(if has_two && torques > 1 {
+            error.help(
+                "`solve` takes all of them; an analysis does not, since nothing states how the machines share the torque: use a gear in which a \
+                 planetary set divides it",
+            )
+        } else if let ([.., to, port], true) = (&free[..], has_two) {
+            error.help(format!(
+                "keep a ratio of two speeds: `gear_states: {{ {}: {{ engaged: [{}], speed_ratio: {{ port: {port}, to: {to}, ratio: 1 }} }} }}`; \
+                 `solve` takes any speeds",
+                described.name,
+                described.engaged.join(", ")
+            ))
+        } else if others.len() > 1 {
             error
                 .note(format!("ports: {}, {}", self.ports[reference].name, others.join(", ")))
                 .help(format!(

@@ -8,7 +8,7 @@ use super::seats::MeshSeat;
 use super::transfers::TransferSeat;
 use crate::attach::{SeatedClearance, dangling};
 use crate::codes;
-use crate::description::GearboxEntry;
+use crate::description::{GearboxEntry, RatiosEntry};
 use crate::document::Diagnostic;
 use crate::flow::{MeshRow, Share};
 use crate::kinematics::{Fault, Motion, Row, Train};
@@ -23,6 +23,8 @@ pub(crate) enum RowName {
     Equal(String),
     /// A port that rotates with the axle of `wheels`, by name.
     Wheel(String),
+    /// The ratio of two speeds that a control keeps, by path.
+    Ratio(String),
 }
 
 /// One gear state.
@@ -37,7 +39,7 @@ pub struct GearState {
     pub(crate) rows: Vec<RowName>,
     pub(crate) meshes: Vec<MeshRow>,
     pub(crate) shares: Vec<Share>,
-    /// Columns whose speed a rule prescribes, with zero given torque: differences of differentials.
+    /// Columns whose speed a rule prescribes, with zero given torque: differences of differentials and of speeds in a ratio.
     pub(crate) equal: Vec<usize>,
     /// Columns that are stationary by rule, with a reaction torque.
     pub(crate) standing: Vec<usize>,
@@ -81,8 +83,7 @@ impl GearState {
 struct Plan {
     /// Meshes, differentials and wheels.
     base: GearState,
-    /// Name, engaged couplings and members at standstill of each.
-    written: Vec<(String, Vec<String>, Vec<String>)>,
+    written: Vec<Written>,
     transfers: Vec<TransferSeat>,
     /// Number of the first row with friction that is no gear mesh.
     first_transfer: usize,
@@ -90,6 +91,57 @@ struct Plan {
     clearances: Vec<SeatedClearance>,
     ports: Vec<super::Port>,
     has_wheels: bool,
+}
+
+/// A gear state as it is described.
+#[derive(PartialEq)]
+struct Written {
+    /// Its name, with its ratio behind it if there are several.
+    name: String,
+    /// Its key under `gear_states`.
+    key: String,
+    engaged: Vec<String>,
+    standstill: Vec<String>,
+    /// Ports whose speeds have a ratio: the one that follows first.
+    ratio: Option<([String; 2], f64)>,
+}
+
+/// The gear states of a description; several ratios of speeds make several.
+fn written(entry: &GearboxEntry) -> Vec<Written> {
+    let mut all = Vec::new();
+    for (key, state) in entry.gear_states.iter() {
+        let with = |name: String, ratio: Option<([String; 2], f64)>| Written {
+            name,
+            key: key.to_owned(),
+            engaged: state.engaged().to_vec(),
+            standstill: state.standstill().to_vec(),
+            ratio,
+        };
+        let Some(rule) = state.speed_ratio() else {
+            all.push(with(key.to_owned(), None));
+            continue;
+        };
+        let ports = || [rule.port.clone(), rule.to.clone()];
+        match &rule.ratio {
+            RatiosEntry::One(ratio) => all.push(with(key.to_owned(), Some((ports(), *ratio)))),
+            RatiosEntry::Several(ratios) => {
+                let each = ratios
+                    .iter()
+                    .map(|ratio| with(format!("{key} {ratio}"), Some((ports(), *ratio))));
+                all.extend(each);
+            }
+        }
+    }
+    if all.is_empty() {
+        all.push(Written {
+            name: ONLY.to_owned(),
+            key: ONLY.to_owned(),
+            engaged: Vec::new(),
+            standstill: Vec::new(),
+            ratio: None,
+        });
+    }
+    all
 }
 
 /// Gear states with their cases, and what is wrong with them.
@@ -130,18 +182,9 @@ pub fn states(
         return Default::default();
     }
     let base = all_open(entry, members, (meshes, transfers), wheels, found);
-    let written = if entry.gear_states.is_empty() {
-        vec![(ONLY.to_owned(), Vec::new(), Vec::new())]
-    } else {
-        entry
-            .gear_states
-            .iter()
-            .map(|(name, s)| (name.to_owned(), s.engaged().to_vec(), s.standstill().to_vec()))
-            .collect()
-    };
     let plan = Plan {
         base,
-        written,
+        written: written(entry),
         transfers: transfers.to_vec(),
         first_transfer: meshes.len(),
         members: members.names.clone(),
@@ -170,8 +213,15 @@ fn planned(plan: &Plan) -> Planned {
     let ids: Vec<&str> = members.iter().map(String::as_str).collect();
     let closable: Vec<&str> = clearances.iter().map(|c| c.id.as_str()).collect();
     let mut states = Vec::new();
-    for (name, engaged, standstill) in written {
-        let path = path_of_state(name);
+    for (number, described) in written.iter().enumerate() {
+        let Written {
+            name,
+            key,
+            engaged,
+            standstill,
+            ratio,
+        } = described;
+        let path = path_of_state(key);
         let before = found.len();
         let mut state = GearState {
             name: name.clone(),
@@ -179,7 +229,7 @@ fn planned(plan: &Plan) -> Planned {
             ..base.clone()
         };
         for (seat, row) in transfers.iter().zip(*first_transfer..) {
-            state.turn_at(row, seat.row_in(name));
+            state.turn_at(row, seat.row_in(key));
         }
         for id in engaged {
             match clearances.iter().find(|c| c.id == *id) {
@@ -214,6 +264,16 @@ fn planned(plan: &Plan) -> Planned {
                 held.rows.push(Row::joined(Some(*difference), None));
                 Motion::freedom(&held) < freedom
             });
+        }
+        if let Some((names, ratio)) = ratio
+            && found.len() == before
+        {
+            if written[..number].iter().any(|other| other.name == *name) {
+                let error = Diagnostic::error(format!("{path}.speed_ratio"), format!("`{name}` exists twice"));
+                found.push(error.help("state each ratio once").code(codes::OVERDETERMINED));
+            } else if let Err(error) = keep_ratio(&mut state, ports, (names, *ratio), &format!("{path}.speed_ratio")) {
+                found.push(error);
+            }
         }
         if found.len() == before {
             choose_ports(&mut state, ports, members, &path, &mut found);
@@ -334,6 +394,52 @@ fn add_differentials(
     }
 }
 
+/// Adds the rule that the speeds of two ports have a ratio, which transmits no torque.
+fn keep_ratio(
+    state: &mut GearState,
+    ports: &[super::Port],
+    (names, ratio): (&[String; 2], f64),
+    path: &str,
+) -> Result<(), Diagnostic> {
+    let known: Vec<&str> = ports.iter().map(|port| port.name.as_str()).collect();
+    let member = |key: &str, name: &str| {
+        let port = ports.iter().find(|port| port.name == name);
+        port.map(|port| port.member)
+            .ok_or_else(|| dangling(&format!("{path}.{key}"), "port", name, &known))
+    };
+    let (follows, leads) = (member("port", &names[0])?, member("to", &names[1])?);
+    let wrong =
+        |message: String, help: String| Err(Diagnostic::error(path, message).help(help).code(codes::OVERDETERMINED));
+    if follows == leads {
+        let help = "name two ports on different shafts".to_owned();
+        return wrong(format!("`{}` and `{}` are one shaft", names[0], names[1]), help);
+    }
+    let column = state.train.columns;
+    state.train.columns += 1;
+    state
+        .train
+        .rows
+        .push(Row::difference((follows, 1.0), (leads, ratio), column));
+    state.rows.push(RowName::Ratio(path.to_owned()));
+    state.equal.push(column);
+    let ruled = state.equal.len() + state.standing.len();
+    let mut held = state.train.clone();
+    held.rows.push(Row::joined(Some(column), None));
+    let freedom = Motion::freedom(&state.train);
+    if freedom <= ruled || Motion::freedom(&held) == freedom {
+        let message = format!(
+            "the speeds of `{}` and `{}` already follow from each other{}",
+            names[0],
+            names[1],
+            in_state(&state.name)
+        );
+        let help =
+            "delete `speed_ratio`, or engage fewer couplings: a ratio is kept where two speeds are free".to_owned();
+        return wrong(message, help);
+    }
+    Ok(())
+}
+
 /// Selects the ports that prescribe speeds: the reference port first, then the others in their order.
 fn choose_ports(
     state: &mut GearState,
@@ -421,6 +527,7 @@ pub(crate) fn explain(
     let row = |row: &usize| match state.rows.get(*row) {
         Some(RowName::Path(path)) => path.clone(),
         Some(RowName::Equal(path)) => format!("equal speeds of {path}"),
+        Some(RowName::Ratio(path)) => path.clone(),
         Some(RowName::Wheel(name)) => format!("equal speed of {name} and the other `wheels`"),
         None => String::new(),
     };

@@ -95,7 +95,7 @@ impl Transmission {
         work.given.fill(sign);
         let state = &self.states[case.state];
         let row = |row: usize| match &state.rows[row] {
-            RowName::Path(path) | RowName::Equal(path) => path.clone(),
+            RowName::Path(path) | RowName::Equal(path) | RowName::Ratio(path) => path.clone(),
             RowName::Wheel(wheel) => format!("wheel {wheel}"),
         };
         let port = |column: usize| {

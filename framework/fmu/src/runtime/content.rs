@@ -5,7 +5,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-use super::map::{GearOfMap, Map, OilOfMap};
+use super::map::{GearOfMap, Map, OfMap, OilOfMap};
 use super::network::{Conductance, Exchanger, Flow, GearOfNetwork, Link, Network, Node, Source};
 use super::table::{Axis, Table};
 
@@ -32,7 +32,11 @@ impl Content {
         to.number(VERSION);
         match self {
             Self::Map(map) => {
-                to.number(0);
+                to.number(match map.of {
+                    OfMap::Gearbox => 0,
+                    OfMap::Unit => 2,
+                    OfMap::Machines => 3,
+                });
                 to.map(map);
             }
             Self::Network(network) => {
@@ -50,7 +54,9 @@ impl Content {
             return None;
         }
         let content = match from.number()? {
-            0 => Self::Map(from.map()?),
+            0 => Self::Map(from.map(OfMap::Gearbox)?),
+            2 => Self::Map(from.map(OfMap::Unit)?),
+            3 => Self::Map(from.map(OfMap::Machines)?),
             1 => Self::Network(from.network()?),
             _ => return None,
         };
@@ -275,7 +281,7 @@ impl Reader<'_> {
         Some(Table { axes, channels, values })
     }
 
-    fn map(&mut self) -> Option<Map> {
+    fn map(&mut self, of: OfMap) -> Option<Map> {
         let oil = match self.number()? {
             0 => OilOfMap::Given,
             1 => OilOfMap::Balance,
@@ -290,6 +296,7 @@ impl Reader<'_> {
             })
         };
         Some(Map {
+            of,
             oil,
             gears: self.list(gear)?,
             starts: self.list(Self::real)?,

@@ -12,6 +12,39 @@ pub const QUANTITIES: usize = 3;
 /// Shares of the loss in the tables, beside the total.
 pub const SHARES: usize = 6;
 
+/// Further channels of a drive unit: power at the shafts of the machines over speed, and the losses of machines and of inverters.
+const ELECTRIC: usize = 3;
+
+/// Whose losses a map has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OfMap {
+    /// The gearbox.
+    #[default]
+    Gearbox,
+    /// Gearbox, machines and inverters.
+    Unit,
+    /// Machines and inverters.
+    Machines,
+}
+
+impl OfMap {
+    /// Number of channels of the gearbox: loss torque and its shares.
+    fn of_gearbox(self) -> usize {
+        match self {
+            Self::Gearbox | Self::Unit => 1 + SHARES,
+            Self::Machines => 0,
+        }
+    }
+
+    /// Number of channels of machines and inverters.
+    fn electric(self) -> usize {
+        match self {
+            Self::Gearbox => 0,
+            Self::Unit | Self::Machines => ELECTRIC,
+        }
+    }
+}
+
 /// Origin of the oil temperature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum OilOfMap {
@@ -30,13 +63,16 @@ pub struct GearOfMap {
     pub name: String,
     /// Speed of the other port over that of the reference port; absent unless there are two ports.
     pub ratio: Option<f64>,
-    /// Over speed, torque and, if given, oil temperature: loss torque, its shares, and the oil temperature of a heat balance.
+    /// Over speed, torque and, if given, oil temperature. Of the gearbox: loss torque and its shares over speed; then the oil temperature of a
+    /// heat balance; then, if the map has machines, power of their shafts over speed \[Nm\], their losses and those of inverters \[W\].
     pub table: Table,
 }
 
 /// Losses over speed, torque and oil temperature.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
+    /// Whose losses.
+    pub of: OfMap,
     /// Origin of the oil temperature.
     pub oil: OilOfMap,
     /// The gears; at least one.
@@ -48,7 +84,7 @@ pub struct Map {
 impl Map {
     /// Whether all tables are as described.
     pub fn is_sound(&self) -> bool {
-        let channels = 1 + SHARES + usize::from(self.oil == OilOfMap::Balance);
+        let channels = self.of.of_gearbox() + usize::from(self.oil == OilOfMap::Balance) + self.of.electric();
         let gear = |gear: &GearOfMap| gear.table.channels == channels && gear.table.is_sound();
         let has_one = self.gears.first().map(|gear| gear.ratio.is_some());
         let same = self.gears.iter().all(|gear| Some(gear.ratio.is_some()) == has_one);
@@ -79,14 +115,34 @@ impl Map {
         if self.gears.len() > 1 {
             all.push(Slot::gear());
         }
-        all.extend([Use::LossTorque, Use::LossPower, Use::Efficiency].map(output));
+        let losses: &[Use] = match self.of {
+            OfMap::Gearbox => &[Use::LossTorque, Use::LossPower, Use::Efficiency],
+            OfMap::Unit => &[
+                Use::LossPower,
+                Use::Efficiency,
+                Use::DcPower,
+                Use::GearboxLoss,
+                Use::MachineLoss,
+                Use::InverterLoss,
+            ],
+            OfMap::Machines => &[
+                Use::LossPower,
+                Use::Efficiency,
+                Use::DcPower,
+                Use::MachineLoss,
+                Use::InverterLoss,
+            ],
+        };
+        all.extend(losses.iter().copied().map(output));
         if self.gears.iter().all(|gear| gear.ratio.is_some()) {
             all.extend([Use::OutputTorque, Use::OutputSpeed].map(output));
         }
         if self.oil == OilOfMap::Balance {
             all.push(output(Use::OilTemperature));
         }
-        all.extend((0..SHARES as u32).map(|share| output(Use::Share(share))));
+        if self.of.of_gearbox() > 0 {
+            all.extend((0..SHARES as u32).map(|share| output(Use::Share(share))));
+        }
         all.push(Slot::outside());
         all
     }
@@ -99,23 +155,39 @@ impl Map {
             return;
         };
         let turn = Turn::new(speed, torque, &gear.table);
-        let mut sums = [0.0; 2 + SHARES];
+        let mut sums = [0.0; 2 + SHARES + ELECTRIC];
         let quantities = [turn.speed, turn.torque, input(Use::OilTemperature)];
         let inside = gear.table.interpolate(&quantities, 1.0, &mut sums);
-        let power = sums[0] * speed.abs();
+        let (of_gearbox, rest) = sums.split_at(self.of.of_gearbox());
+        let loss_torque = of_gearbox.first().copied().unwrap_or(0.0);
+        let gearbox = loss_torque * speed.abs();
+        let rest_from = usize::from(self.oil == OilOfMap::Balance);
+        let mut electric = [0.0; ELECTRIC];
+        if self.of.electric() > 0 {
+            electric.copy_from_slice(&rest[rest_from..rest_from + ELECTRIC]);
+        }
+        let [shaft_torque, machine, inverter] = electric;
+        let shafts = shaft_torque * speed.abs();
+        let dc = shafts + machine + inverter;
+        let power = gearbox + machine + inverter;
         let ratio = gear.ratio.unwrap_or(1.0);
         for (slot, value) in slots.iter().zip(values) {
             if slot.causality != Causality::Output {
                 continue;
             }
             *value = match slot.use_ {
-                Use::LossTorque => sums[0],
+                Use::LossTorque => loss_torque,
                 Use::LossPower => power,
-                Use::Efficiency => efficiency(speed * torque, power),
-                Use::OutputTorque => (torque - turn.sense * sums[0]) / ratio,
+                Use::Efficiency if self.of == OfMap::Gearbox => efficiency(speed * torque, power),
+                Use::Efficiency => from_link(dc, shafts - gearbox),
+                Use::DcPower => dc,
+                Use::GearboxLoss => gearbox,
+                Use::MachineLoss => machine,
+                Use::InverterLoss => inverter,
+                Use::OutputTorque => (torque - turn.sense * loss_torque) / ratio,
                 Use::OutputSpeed => speed * ratio,
-                Use::OilTemperature => sums[1 + SHARES],
-                Use::Share(share) => sums.get(1 + share as usize).copied().unwrap_or(0.0) * speed.abs(),
+                Use::OilTemperature => rest.first().copied().unwrap_or(0.0),
+                Use::Share(share) => of_gearbox.get(1 + share as usize).copied().unwrap_or(0.0) * speed.abs(),
                 Use::Outside => f64::from(!(inside && is_gear && !turn.is_mirrored)),
                 _ => *value,
             };
@@ -170,6 +242,17 @@ pub fn efficiency(reference: f64, loss: f64) -> f64 {
     };
     if output > 0.0 && input > 0.0 {
         output / input
+    } else {
+        0.0
+    }
+}
+
+/// Power that passes over the power of the DC link, or the reciprocal while it is generated; zero if no power passes. \[W\]
+fn from_link(dc: f64, passed: f64) -> f64 {
+    if dc > 0.0 && passed > 0.0 {
+        passed / dc
+    } else if dc < 0.0 && passed < 0.0 {
+        dc / passed
     } else {
         0.0
     }

@@ -45,6 +45,14 @@ pub enum Use {
     ExchangerHeat(u32),
     /// Losses of all motors. \[W\]
     MotorLoss,
+    /// Power out of the DC link. \[W\]
+    DcPower,
+    /// Loss of the gearbox of a drive unit. \[W\]
+    GearboxLoss,
+    /// Losses of the machines. \[W\]
+    MachineLoss,
+    /// Losses of the inverters. \[W\]
+    InverterLoss,
 }
 
 /// Type of a variable.

@@ -5,10 +5,10 @@
 use std::ptr;
 
 use gearloss_fmu::content::Content;
-use gearloss_fmu::map::{GearOfMap, Map, OilOfMap};
+use gearloss_fmu::map::{GearOfMap, Map, OfMap, OilOfMap};
 use gearloss_fmu::table::{Axis, Table};
 use gearloss_fmu::{Experiment, Fmu, Version};
-use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, MapOfSet, Refusal};
+use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, MapOf, MapOfSet, Refusal, UnitAt};
 use gearloss_studies::analyses::numbers::{RPM, tidy};
 use gearloss_studies::register_export;
 
@@ -51,6 +51,10 @@ impl ExportFormat for Fmu2 {
         true
     }
 
+    fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
+        Ok(())
+    }
+
     fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
         of_set(map)
     }
@@ -75,6 +79,10 @@ impl ExportFormat for Fmu3 {
 
     fn has_library(&self) -> bool {
         true
+    }
+
+    fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
+        Ok(())
     }
 
     fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
@@ -110,9 +118,15 @@ fn file(map: &ExportMap<'_>, version: Version) -> Result<Option<ExportFile>, Ref
         Some(_) => OilOfMap::Fixed,
         None => OilOfMap::Balance,
     };
-    let has_ratio = gears.iter().all(|(.., ratio)| ratio.is_some());
     let first = &gears[0].1;
+    // The machines alone have no other port.
+    let has_ratio = first.of != MapOf::Machine && gears.iter().all(|(.., ratio)| ratio.is_some());
     let content = Content::Map(Map {
+        of: match first.of {
+            MapOf::Gearbox => OfMap::Gearbox,
+            MapOf::Unit => OfMap::Unit,
+            MapOf::Machine => OfMap::Machines,
+        },
         oil: oil(first),
         starts: vec![
             middle(&first.speeds()),
@@ -132,7 +146,7 @@ fn file(map: &ExportMap<'_>, version: Version) -> Result<Option<ExportFile>, Ref
     let name = format!("{}-{}", map.outcome.head.analysis, map.map.model_set).replace('/', "-");
     let fmu = Fmu {
         name: name.clone(),
-        description: format!("Losses by gearloss: {about}{}", missed(&maps)),
+        description: format!("Losses{} by gearloss: {about}{}", first.of.words(), missed(&maps)),
         tool: format!("gearloss {}", env!("CARGO_PKG_VERSION")),
         content: &content,
         shares: &SHARES,
@@ -190,17 +204,35 @@ fn table(grid: &GridTable) -> Table {
         for t in 0..torques.len() {
             for slab in &grid.slabs {
                 let loss = slab.grid.loss(t, *column);
-                values.push(loss.and_then(|loss| loss.loss_torque).unwrap_or(0.0));
-                values.extend(loss.map_or([0.0; 6], |loss| loss.sums).map(|watts| watts / speed.abs()));
+                let unit = loss.and_then(|loss| loss.unit);
+                let gearbox = unit.map(|unit| (unit.gearbox_torque, unit.gearbox));
+                let (torque, sums) = gearbox
+                    .or(loss.map(|loss| (loss.loss_torque, loss.sums)))
+                    .unwrap_or_default();
+                if grid.of != MapOf::Machine {
+                    values.push(torque.unwrap_or(0.0));
+                    values.extend(sums.map(|watts| watts / speed.abs()));
+                }
                 if is_balanced {
                     values.push(loss.and_then(|loss| loss.oil).unwrap_or(0.0));
+                }
+                if !grid.of.is_gearbox() {
+                    values.extend(electric(unit, *speed));
                 }
             }
         }
     }
-    // A grid that begins at standstill includes it, with the loss torque of the lowest speed.
+    let channels = values.len() / (speeds.len() * torques.len() * grid.slabs.len());
+    // A grid that begins at standstill includes it, with the loss torque of the lowest speed; machines lose there what was solved.
     if grid.axes().speeds[0] == 0.0 && speeds[0] > 0.0 {
-        let lowest = values[..values.len() / speeds.len()].to_vec();
+        let mut lowest = values[..values.len() / speeds.len()].to_vec();
+        if grid.unit_columns.first() == Some(&0) {
+            let places = (0..torques.len()).flat_map(|t| grid.slabs.iter().map(move |slab| (t, slab)));
+            for (point, (t, slab)) in lowest.chunks_exact_mut(channels).zip(places) {
+                let [machine, inverter] = losses(slab.grid.loss(t, 0).and_then(|loss| loss.unit));
+                point[channels - 2..].copy_from_slice(&[machine, inverter]);
+            }
+        }
         values.splice(0..0, lowest);
         speeds.insert(0, 0.0);
     }
@@ -220,11 +252,18 @@ fn table(grid: &GridTable) -> Table {
             points: oils,
         });
     }
-    Table {
-        axes,
-        channels: 7 + usize::from(is_balanced),
-        values,
-    }
+    Table { axes, channels, values }
+}
+
+/// Losses of machines and inverters. \[W\]
+fn losses(unit: Option<UnitAt>) -> [f64; 2] {
+    unit.map_or([0.0; 2], |unit| [unit.point.machine_loss_w, unit.point.inverter_loss_w])
+}
+
+/// Channels of a drive unit: power at the shafts of the machines over speed \[Nm\], losses of machines and inverters \[W\].
+fn electric(unit: Option<UnitAt>, speed: f64) -> [f64; 3] {
+    let [machine, inverter] = losses(unit);
+    [unit.map_or(0.0, |unit| unit.shafts) / speed.abs(), machine, inverter]
 }
 
 /// Points all over the axes, between the points of the grid: multiples of irrational numbers fill a range evenly.

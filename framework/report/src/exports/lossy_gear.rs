@@ -2,7 +2,7 @@
 //!
 //! Source: documentation of `Modelica.Mechanics.Rotational.Components.LossyGear`.
 
-use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, Refusal};
+use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOf, Refusal};
 use gearloss_studies::analyses::numbers::{RPM, tidy};
 use gearloss_studies::points::Given;
 use gearloss_studies::register_export;
@@ -19,6 +19,20 @@ impl ExportFormat for LossyGear {
     fn meaning(&self) -> &'static str {
         "Efficiency and bearing friction over speed for `LossyGear` of the Modelica Standard Library: straight lines from the no-load \
          loss, a fit by relative deviation."
+    }
+
+    fn takes(&self, of: MapOf) -> Result<(), Refusal> {
+        if of.is_gearbox() {
+            return Ok(());
+        }
+        Err(Refusal::new(
+            format!(
+                "`LossyGear` connects two shafts by a ratio, and its losses vanish without speed; the losses{} are between the DC link and a \
+                 shaft, and machines lose at standstill too",
+                of.words()
+            ),
+            "export `lossy_gear` of a map without `of`, and `modelica` or `fmu3` of the machines (`of: machine`)",
+        ))
     }
 
     fn fits(&self, axes: &Axes) -> Result<(), Refusal> {

@@ -3,10 +3,10 @@
 //! Source: MathWorks, MAT-File Format, level 5: header of 128 bytes, then a matrix of doubles for each variable, little-endian, each part
 //! aligned to eight bytes, columns first.
 
-use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOfSet, Refusal};
+use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOf, MapOfSet, Refusal};
 use gearloss_studies::register_export;
 
-use super::slabs::{GridTable, Slab};
+use super::slabs::{GridTable, Slab, UNIT};
 
 register_export!(Mat);
 
@@ -17,8 +17,8 @@ impl ExportFormat for Mat {
         "mat"
     }
 
-    fn takes_machines(&self) -> bool {
-        true
+    fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
+        Ok(())
     }
 
     fn meaning(&self) -> &'static str {
@@ -76,9 +76,9 @@ fn file(tables: &GridTable, gear: &str) -> Option<Vec<u8>> {
     bytes.extend([0; 8]);
     bytes.extend([0x00, 0x01, b'I', b'M']);
     let (torques, speeds) = (&tables.axes().torques, tables.speeds());
-    let (rows, columns, slabs) = (torques.len(), speeds.len(), tables.slabs.len());
+    let (rows, slabs, columns) = (torques.len(), tables.slabs.len(), &tables.columns);
     add(&mut bytes, "Trq_bpts", &[1, rows], torques)?;
-    add(&mut bytes, "omega_bpts", &[1, columns], &speeds)?;
+    add(&mut bytes, "omega_bpts", &[1, speeds.len()], &speeds)?;
     let kelvin: Vec<f64> = tables
         .slabs
         .iter()
@@ -86,25 +86,55 @@ fn file(tables: &GridTable, gear: &str) -> Option<Vec<u8>> {
         .collect();
     let size: &[usize] = if slabs > 1 {
         add(&mut bytes, "Temp_bpts", &[1, slabs], &kelvin)?;
-        &[rows, columns, slabs]
+        &[rows, speeds.len(), slabs]
     } else {
-        &[rows, columns]
+        &[rows, speeds.len()]
     };
     // Without output power the efficiency is zero.
-    add(&mut bytes, "eta_tbl", size, &values(tables, LossGrid::efficiency))?;
-    add(&mut bytes, "loss_tbl", size, &values(tables, LossGrid::loss_torque))?;
+    add(
+        &mut bytes,
+        "eta_tbl",
+        size,
+        &values(tables, columns, LossGrid::efficiency),
+    )?;
+    add(
+        &mut bytes,
+        "loss_tbl",
+        size,
+        &values(tables, columns, LossGrid::loss_torque),
+    )?;
     if tables.slabs[0].oil.is_none() {
         let oil = |grid: &LossGrid, t: usize, w: usize| Some(grid.loss(t, w)?.oil? + 273.15);
-        add(&mut bytes, "oil_tbl", size, &values(tables, oil))?;
+        add(&mut bytes, "oil_tbl", size, &values(tables, columns, oil))?;
+    }
+    if !tables.unit_columns.is_empty() {
+        let columns = &tables.unit_columns;
+        add(
+            &mut bytes,
+            "omega_unit_bpts",
+            &[1, columns.len()],
+            &tables.unit_speeds(),
+        )?;
+        let mut size = size.to_vec();
+        size[1] = columns.len();
+        for (name, _, read) in UNIT {
+            let value = |grid: &LossGrid, t: usize, w: usize| read(grid.loss(t, w)?);
+            add(
+                &mut bytes,
+                &format!("{name}_tbl"),
+                &size,
+                &values(tables, columns, value),
+            )?;
+        }
     }
     Some(bytes)
 }
 
-/// The values at all points, columns first.
-fn values(tables: &GridTable, value: impl Fn(&LossGrid, usize, usize) -> Option<f64>) -> Vec<f64> {
+/// The values at all torques and some speeds, columns first.
+fn values(tables: &GridTable, columns: &[usize], value: impl Fn(&LossGrid, usize, usize) -> Option<f64>) -> Vec<f64> {
     let rows = tables.axes().torques.len();
     let of_slab = |slab: &Slab| -> Vec<f64> {
-        let places = tables.columns.iter().flat_map(|w| (0..rows).map(move |t| (t, *w)));
+        let places = columns.iter().flat_map(|w| (0..rows).map(move |t| (t, *w)));
         places.map(|(t, w)| value(&slab.grid, t, w).unwrap_or(0.0)).collect()
     };
     tables.slabs.iter().flat_map(of_slab).collect()

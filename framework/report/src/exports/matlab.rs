@@ -2,10 +2,10 @@
 //!
 //! Source: documentation of the Powertrain Blockset's block Gearbox.
 
-use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOfSet, Refusal};
+use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOf, MapOfSet, Refusal};
 use gearloss_studies::register_export;
 
-use super::slabs::{GridTable, Slab};
+use super::slabs::{GridTable, Slab, UNIT};
 
 register_export!(Matlab);
 
@@ -16,8 +16,8 @@ impl ExportFormat for Matlab {
         "matlab"
     }
 
-    fn takes_machines(&self) -> bool {
-        true
+    fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
+        Ok(())
     }
 
     fn meaning(&self) -> &'static str {
@@ -90,9 +90,23 @@ fn script(map: &ExportMap<'_>) -> Result<(String, String), Refusal> {
     } else {
         String::new()
     };
+    let mut unit = String::new();
+    if !tables.unit_columns.is_empty() {
+        let meanings = UNIT.map(|(name, meaning, _)| format!("{name}_tbl: {meaning}"));
+        unit = format!(
+            "% Over Trq_bpts and omega_unit_bpts: {}.\nomega_unit_bpts = [{}]; % rad/s\n",
+            meanings.join("; "),
+            list(tables.unit_speeds().into_iter())
+        );
+        for (name, _, read) in UNIT {
+            let value = |grid: &LossGrid, t: usize, w: usize| read(grid.loss(t, w)?);
+            unit.push_str(&table(&format!("{name}_tbl"), slabs, &tables.unit_columns, value));
+        }
+    }
     let text = format!(
-        "% Losses of gear {}, by gearloss {}. {about}.\n% eta_tbl: power out over power in, drive and coast; loss_tbl: loss over the speed of the reference port, Nm; \
-         rows are torques, columns are speeds.\nTrq_bpts = [{}]; % Nm\nomega_bpts = [{}]; % rad/s\n{temperatures}{eta}{loss}",
+        "% Losses{} of gear {}, by gearloss {}. {about}.\n% eta_tbl: power out over power in, drive and coast; loss_tbl: loss over the speed of the reference port, Nm; \
+         rows are torques, columns are speeds.\nTrq_bpts = [{}]; % Nm\nomega_bpts = [{}]; % rad/s\n{temperatures}{eta}{loss}{unit}",
+        tables.of.words(),
         map.map.gear,
         env!("CARGO_PKG_VERSION"),
         list(axes.torques.iter().copied()),

@@ -3,11 +3,11 @@
 //! Source: documentation of `Modelica.Blocks.Tables.CombiTable2Ds`: first line `#1`, then `double name(rows,columns)` and the rows; the
 //! first column has the first input, the first row the second one.
 
-use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, MapOfSet, Refusal};
+use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOf, MapOfSet, Refusal};
 use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::register_export;
 
-use super::slabs::{GridTable, Slab};
+use super::slabs::{GridTable, Slab, UNIT};
 
 register_export!(Modelica);
 
@@ -18,8 +18,8 @@ impl ExportFormat for Modelica {
         "modelica"
     }
 
-    fn takes_machines(&self) -> bool {
-        true
+    fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
+        Ok(())
     }
 
     fn meaning(&self) -> &'static str {
@@ -52,10 +52,19 @@ impl ExportFormat for Modelica {
 /// All tables.
 fn text(tables: &GridTable, gear: &str, about: &str) -> String {
     let mut text = format!(
-        "#1\n# Losses of gear {gear}, by gearloss {}. {about}.\n# loss_torque: Nm over torque (Nm, rows) and speed (rad/s, columns) of the reference \
+        "#1\n# Losses{} of gear {gear}, by gearloss {}. {about}.\n# loss_torque: Nm over torque (Nm, rows) and speed (rad/s, columns) of the reference \
          port. loss_power: the same in W, with standstill.\n",
+        tables.of.words(),
         env!("CARGO_PKG_VERSION")
     );
+    if !tables.of.is_gearbox() {
+        let meanings = UNIT.map(|(name, meaning, _)| format!("{name}: {meaning}"));
+        text.push_str(&format!(
+            "# Over torque and speed, with standstill if it was computed: {}; efficiency: power that passes over the power of the DC link, while \
+             generating the reciprocal, zero if no power passes.\n",
+            meanings.join("; ")
+        ));
+    }
     let several = tables.slabs.len() > 1;
     if several {
         text.push_str("# The number behind a name is that of the oil temperature. no_load_torque: Nm over speed (rad/s, rows) and oil temperature (degC, columns).\n");
@@ -68,21 +77,40 @@ fn text(tables: &GridTable, gear: &str, about: &str) -> String {
         }
         let loss = |t: usize, c: usize| slab.grid.loss_torque(t, tables.columns[c]).unwrap_or(0.0);
         add(&mut text, &format!("loss_torque{suffix}"), torques, &speeds, loss);
-        let (with_standstill, first) = from_standstill(&speeds);
-        let power = |t: usize, c: usize| {
-            if c < first {
-                0.0
-            } else {
-                loss(t, c - first) * speeds[c - first].abs()
+        if tables.of.is_gearbox() {
+            let (with_standstill, first) = from_standstill(&speeds);
+            let power = |t: usize, c: usize| {
+                if c < first {
+                    0.0
+                } else {
+                    loss(t, c - first) * speeds[c - first].abs()
+                }
+            };
+            add(
+                &mut text,
+                &format!("loss_power{suffix}"),
+                torques,
+                &with_standstill,
+                power,
+            );
+        } else {
+            let of_unit = |name: &str, value: &dyn Fn(&LossGrid, usize, usize) -> Option<f64>| {
+                let mut table = String::new();
+                let at = |t: usize, c: usize| value(&slab.grid, t, tables.unit_columns[c]).unwrap_or(0.0);
+                add(
+                    &mut table,
+                    &format!("{name}{suffix}"),
+                    torques,
+                    &tables.unit_speeds(),
+                    at,
+                );
+                table
+            };
+            for (name, _, read) in UNIT {
+                text.push_str(&of_unit(name, &|grid, t, w| read(grid.loss(t, w)?)));
             }
-        };
-        add(
-            &mut text,
-            &format!("loss_power{suffix}"),
-            torques,
-            &with_standstill,
-            power,
-        );
+            text.push_str(&of_unit("efficiency", &LossGrid::efficiency));
+        }
         if slab.oil.is_none() {
             let oil = |t: usize, c: usize| {
                 slab.grid

@@ -1,6 +1,6 @@
 //! The maps of one table: the same grid at one oil temperature or several, complete at zero torque and without gaps.
 
-use gearloss_studies::analyses::map::{Axes, ExportMap, LossGrid, MapOfSet, Refusal};
+use gearloss_studies::analyses::map::{Axes, ExportMap, LossAt, LossGrid, MapOf, MapOfSet, Refusal};
 use gearloss_studies::analyses::numbers::tidy;
 
 /// Losses at one oil temperature.
@@ -17,6 +17,11 @@ pub struct GridTable {
     pub slabs: Vec<Slab>,
     /// Indices of the speeds with a loss torque at every torque. Standstill has none and is omitted.
     pub columns: Vec<usize>,
+    /// Indices of the speeds of tables of the drive unit: standstill too if the grid has it, since machines lose there. Empty of a map of the
+    /// gearbox.
+    pub unit_columns: Vec<usize>,
+    /// Whose losses they are.
+    pub of: MapOf,
     /// Whether the row at zero torque was added.
     added: bool,
 }
@@ -73,7 +78,18 @@ impl GridTable {
         }
         let added = maps.iter().any(|map| !map.export.no_load.is_empty()) && first.torques.contains(&0.0);
         let columns = columns(&slabs, first)?;
-        Ok(Self { slabs, columns, added })
+        let (torques, speeds) = (0..first.torques.len(), 0..first.speeds.len());
+        let has_unit = |w: &usize| {
+            let at = |slab: &Slab, t: usize| slab.grid.loss(t, *w).is_some_and(|loss| loss.unit.is_some());
+            slabs.iter().all(|slab| torques.clone().all(|t| at(slab, t)))
+        };
+        Ok(Self {
+            unit_columns: speeds.filter(has_unit).collect(),
+            of: maps.first().map_or(MapOf::Gearbox, |map| map.of),
+            slabs,
+            columns,
+            added,
+        })
     }
 
     /// The axes of all maps.
@@ -86,6 +102,11 @@ impl GridTable {
         self.columns.iter().map(|w| self.axes().speeds[*w]).collect()
     }
 
+    /// The speeds of tables of the drive unit. \[rad/s\]
+    pub fn unit_speeds(&self) -> Vec<f64> {
+        self.unit_columns.iter().map(|w| self.axes().speeds[*w]).collect()
+    }
+
     /// Notes as one line.
     pub fn about(&self) -> String {
         let axes = self.axes();
@@ -94,7 +115,9 @@ impl GridTable {
             about.push_str("zero torque added for the no-load loss, ");
         }
         let omitted = axes.speeds.len() - self.columns.len();
-        if omitted > 0 {
+        if omitted > 0 && self.unit_columns.len() > self.columns.len() {
+            about.push_str("standstill for powers only, ");
+        } else if omitted > 0 {
             about.push_str(&format!("{omitted} speed without a loss torque omitted, "));
         }
         about.push_str(&match self.slabs[0].oil {
@@ -114,6 +137,25 @@ impl GridTable {
         about
     }
 }
+
+/// A table of a drive unit or of its machines in W: name, meaning, value.
+pub type UnitColumn = (&'static str, &'static str, fn(&LossAt) -> Option<f64>);
+
+/// The tables of a drive unit or of its machines.
+pub const UNIT: [UnitColumn; 4] = [
+    ("dc_power", "power out of the DC link, W", |loss| {
+        Some(loss.unit?.point.dc_power_w)
+    }),
+    ("loss_power", "all losses, W", |loss| Some(loss.unit?.loss)),
+    ("machine_loss", "losses of the machines, W", |loss| {
+        Some(loss.unit?.point.machine_loss_w)
+    }),
+    (
+        "inverter_loss",
+        "losses of inverters that are described apart, W",
+        |loss| Some(loss.unit?.point.inverter_loss_w),
+    ),
+];
 
 /// Indices of the speeds of a table.
 fn columns(slabs: &[Slab], axes: &Axes) -> Result<Vec<usize>, Refusal> {

@@ -8,6 +8,7 @@ mod summary;
 use gearloss_studies::analyses::cycle::Criterion;
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownGrid, ShownPoint};
 use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::analyses::outside_maps::MachineOutside;
 use gearloss_studies::points::OilTemperature;
 
 use crate::exports;
@@ -26,6 +27,11 @@ fn show(outcome: &MapOutcome, page: &mut Page) {
     match &outcome.notes_of_sets {
         Some(sets) => over_bound::show(outcome, sets, page),
         None => outcome.maps.iter().for_each(|map| show_map(name, map, page)),
+    }
+    for map in &outcome.maps {
+        let cautions = map.outside_maps.iter().map(MachineOutside::caution);
+        page.careful
+            .extend(cautions.map(|text| format!("{name}, gear {}, models {}: {text}", map.gear, map.model_set)));
     }
     exports::add(outcome, page);
     for note in &outcome.about_measured {

@@ -23,11 +23,11 @@ use serde_json::Value;
 pub use axes::Axes;
 pub use best::{BestGears, PointsInGear};
 pub use entry::MapEntry;
-pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, Refusal};
+pub use export::{ExportFile, ExportFormat, ExportMap, ExportName, MachineAtSpeeds, Refusal};
 pub use map_of::MapOf;
 pub use outcome::{MapOfSet, MapOutcome, Mark, NotesOfSet, PartModel, SumMeaning};
 pub use points::MapPoints;
-pub use shown::{LossAt, LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint};
+pub use shown::{LossAt, LossGrid, SHOWN, ShownGrid, ShownMap, ShownPoint, UnitAt};
 
 use self::export::ExportData;
 use self::plan::{Planned, on_grid};
@@ -35,6 +35,7 @@ use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
 use super::duties::machine_of_map;
 use super::limits::at_points::LimitColumn;
+use super::outside_maps::MachineOutside;
 use super::rows::RowsPlan;
 use super::units::libraries;
 use super::{Analysis, Built, Engine, Plan, Planner, Run, Stopped, Work};
@@ -461,6 +462,8 @@ struct Map<'a> {
     undefined: Vec<UndefinedLoss>,
     /// Numbers of points with a loss inside and outside of the region of a correction.
     inside: [usize; 2],
+    /// Machines outside their maps.
+    outside_maps: Vec<MachineOutside>,
     /// Its rows in the table, if stored.
     rows: Range<usize>,
     /// Number of its rows before those of the present run.
@@ -485,6 +488,7 @@ impl<'a> Map<'a> {
             passes: 0,
             undefined: Vec::new(),
             inside: [0; 2],
+            outside_maps: Vec::new(),
             rows: rows.table.len()..rows.table.len(),
             first: 0,
             gears: None,
@@ -502,6 +506,7 @@ impl<'a> Map<'a> {
             self.lost.merge(taken.lost);
             self.inside[0] += taken.inside[0];
             self.inside[1] += taken.inside[1];
+            MachineOutside::merge(&mut self.outside_maps, taken.outside_maps);
             tables.push(taken.rows);
             picked.push(taken.picked);
             undefined.extend(taken.undefined.into_iter().map(|loss| UndefinedLoss {
@@ -562,6 +567,7 @@ impl<'a> Map<'a> {
                 })
                 .collect(),
             passes: self.passes,
+            outside_maps: self.outside_maps,
             notes: self.notes,
             evidence: evidence(t, &built.resolved, &|path| built.gearbox.places.is_written(path)),
             oil: self.oil,

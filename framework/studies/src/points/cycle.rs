@@ -82,6 +82,8 @@ pub struct Stretch {
     pub beyond_limits: bool,
     /// Energy that the vehicle lacks at its wheels because a machine is at its envelope. \[J\]
     pub lacking: f64,
+    /// Torque \[Nm\] and speed \[rad/s\] of each active machine at its end.
+    pub machines: Vec<[f64; 2]>,
 }
 
 /// A simulated cycle.
@@ -288,6 +290,8 @@ fn drive_through(
         || ride.oil.given().into_iter().collect(),
         |network| network.start(ride.start, &first),
     );
+    let machines = transmission.active_machines(start.len() > 1);
+    let machines: Vec<usize> = machines.map(|machine| machine.member).collect();
     let mut march = network
         .filter(|_| !ride.spectrum)
         .map(|network| March::new(transmission, network, start.clone(), ride.scheme, ride.step));
@@ -342,7 +346,12 @@ fn drive_through(
             let shift = chooser
                 .as_mut()
                 .and_then(|chooser| chooser.pass(ride, planned.interval, &planned.chosen));
-            driven.take(passed, planned, shift, (member(reference), wheels.map(member)));
+            driven.take(
+                passed,
+                planned,
+                shift,
+                (member(reference), wheels.map(member), &machines),
+            );
             if !progress(1) {
                 return Ok(None);
             }
@@ -458,13 +467,13 @@ fn advance(march: &mut March<'_>, cases: &mut Cases<'_>, planned: &[Planned<'_>]
 }
 
 impl Driven {
-    /// Takes over a simulated interval with the shift at its start. Members: those of the reference port and of the wheels.
+    /// Takes over a simulated interval with the shift at its start. Members: those of the reference port, of the wheels and of the machines.
     fn take(
         &mut self,
         passed: Passed,
         planned: &Planned<'_>,
         shift: Option<Shift>,
-        (reference, wheels): (usize, Option<usize>),
+        (reference, wheels, machines): (usize, Option<usize>, &[usize]),
     ) {
         let Planned { interval, asked, .. } = planned;
         let taken = |member: usize| passed.port_torques[member] * passed.speeds[member];
@@ -484,6 +493,10 @@ impl Driven {
             start: interval.start,
             torque: passed.port_torques[reference],
             speed: passed.speeds[reference],
+            machines: machines
+                .iter()
+                .map(|member| [passed.port_torques[*member], passed.speeds[*member]])
+                .collect(),
             vehicle_speed: interval.given.vehicle_speed,
             heats: passed.heats,
             brakes,
@@ -700,16 +713,13 @@ fn kept_envelopes(t: &Transmission, driven: &Driven) -> Result<(), Vec<Diagnosti
         let exceeds = |s: &&Stretch| s.heats.machines.get(i).is_some_and(|energy| energy.beyond > 0.0);
         let mut beyond = driven.stretches.iter().filter(exceeds);
         let Some(first) = beyond.next() else { continue };
-        let at = if machine.port == t.reference_port() {
+        let at = first.machines.get(i).map_or_else(String::new, |[torque, speed]| {
             format!(
-                ": {:.1} Nm at {:.0} rpm, where it reaches {:.1} Nm",
-                first.torque,
-                first.speed * 30.0 / std::f64::consts::PI,
-                envelope.most(first.speed)
+                ": {torque:.1} Nm at {:.0} rpm, where it reaches {:.1} Nm",
+                speed * 30.0 / std::f64::consts::PI,
+                envelope.most(*speed)
             )
-        } else {
-            String::new()
-        };
+        });
         let message = format!(
             "the cycle asks for more torque than the machine has in {} intervals, first at {} s{at}",
             beyond.count() + 1,

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::outside_maps::beyond_words;
 use crate::points::{Driven, Stretch};
 
 /// A machine over a cycle.
@@ -21,7 +22,7 @@ pub struct MachineOfDuty {
     pub inverter_j: f64,
     /// Time outside a map, whose end value is then used. [s]
     pub outside_map_s: f64,
-    /// Where the cycle is farthest outside the map of the machine; absent inside, and of a machine at another port.
+    /// Where the cycle is farthest outside the map of the machine; absent inside.
     pub farthest: Option<OutsideMap>,
     /// Time above the continuous torque. [s]
     pub above_continuous_s: f64,
@@ -52,20 +53,21 @@ impl MachineOfDuty {
     /// The machines of a simulated cycle, in the order of the gearbox.
     pub fn all(t: &Transmission, driven: &Driven) -> Vec<Self> {
         let machines = t.active_machines(driven.start.len() > 1).enumerate();
-        machines
-            .map(|(i, machine)| Self::new(t, (i, machine), driven))
-            .collect()
+        machines.map(|(i, machine)| Self::new((i, machine), driven)).collect()
     }
 
-    fn new(t: &Transmission, (i, machine): (usize, &Machine), driven: &Driven) -> Self {
+    fn new((i, machine): (usize, &Machine), driven: &Driven) -> Self {
         let of = |stretch: &Stretch| stretch.heats.machines.get(i).copied().unwrap_or_default();
         let sum = |value: fn(&MachineEnergy) -> f64| -> f64 { driven.stretches.iter().map(|s| value(&of(s))).sum() };
-        let own = || driven.stretches.iter().filter(|_| machine.port == t.reference_port());
-        let beyond = own().map(|s| (s, machine.excess(s.speed, s.torque)));
-        let beyond = beyond.filter(|(_, excess)| *excess != [0.0; 2]);
+        let own = driven
+            .stretches
+            .iter()
+            .filter_map(|s| Some((s.start, *s.machines.get(i)?)));
+        let beyond = own.map(|(start, [torque, speed])| (start, [torque, speed], machine.excess(speed, torque)));
+        let beyond = beyond.filter(|(.., excess)| *excess != [0.0; 2]);
         // By the power that the excess has.
-        let size = |s: &Stretch, [torque, speed]: [f64; 2]| torque * s.speed.abs() + speed * s.torque.abs();
-        let farthest = beyond.max_by(|a, b| size(a.0, a.1).total_cmp(&size(b.0, b.1)));
+        let size = |[torque, speed]: [f64; 2], excess: [f64; 2]| excess[0] * speed.abs() + excess[1] * torque.abs();
+        let farthest = beyond.max_by(|a, b| size(a.1, a.2).total_cmp(&size(b.1, b.2)));
         let mut longest = 0.0_f64;
         let (mut run, mut count) = (0.0, 0);
         let peak_time = machine.envelope().and_then(|envelope| envelope.peak_time);
@@ -86,12 +88,12 @@ impl MachineOfDuty {
             loss_j: sum(|energy| energy.machine),
             inverter_j: sum(|energy| energy.inverter),
             outside_map_s: sum(|energy| energy.outside),
-            farthest: farthest.map(|(s, [torque, speed])| OutsideMap {
-                time_s: s.start,
-                torque_nm: s.torque,
-                speed_rpm: tidy(s.speed * RPM),
-                torque_beyond_nm: torque,
-                speed_beyond_rpm: tidy(speed * RPM),
+            farthest: farthest.map(|(start, [torque, speed], excess)| OutsideMap {
+                time_s: start,
+                torque_nm: torque,
+                speed_rpm: tidy(speed * RPM),
+                torque_beyond_nm: excess[0],
+                speed_beyond_rpm: tidy(excess[1] * RPM),
             }),
             above_continuous_s: sum(|energy| energy.above_continuous),
             longest_above_continuous_s: longest,
@@ -114,15 +116,7 @@ impl MachineOfDuty {
                     at.torque_nm,
                     at.speed_rpm
                 ));
-                if at.torque_beyond_nm > 0.0 {
-                    text.push_str(&format!(
-                        ", {:.1} Nm above its largest torque there",
-                        at.torque_beyond_nm
-                    ));
-                }
-                if at.speed_beyond_rpm > 0.0 {
-                    text.push_str(&format!(", {:.0} rpm above its largest speed", at.speed_beyond_rpm));
-                }
+                text.push_str(&beyond_words(at.torque_beyond_nm, at.speed_beyond_rpm));
             }
             text.push_str("; the loss at the edge of the map is used");
             all.push(text);

@@ -10,6 +10,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::axes::Axes;
+use super::map_of::MapOf;
 use super::outcome::{MapOfSet, MapOutcome};
 use super::shown::{LossAt, LossGrid};
 use crate::points::Given;
@@ -39,8 +40,21 @@ pub trait ExportFormat: Sync {
     }
 
     /// Whether a table may be that of a drive unit or of its machines, whose losses are not all between two shafts.
-    fn takes_machines(&self) -> bool {
-        false
+    ///
+    /// # Errors
+    /// Why not, and what to use instead.
+    fn takes(&self, of: MapOf) -> Result<(), Refusal> {
+        if of.is_gearbox() {
+            return Ok(());
+        }
+        Err(Refusal::new(
+            format!(
+                "`{}` describes losses between two shafts, not those{}, which are between the DC link and a shaft",
+                self.name(),
+                of.words()
+            ),
+            "export `fmu3`, `mat`, `matlab` or `modelica`, or delete `of` for the losses of the gearbox",
+        ))
     }
 
     /// The maps in the file of a map, for the interpolation error that is reported with it.
@@ -53,6 +67,11 @@ pub trait ExportFormat: Sync {
     /// # Errors
     /// Why there is none.
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal>;
+
+    /// Files beside it.
+    fn further_files(&self, _map: &ExportMap<'_>) -> Vec<ExportFile> {
+        Vec::new()
+    }
 }
 
 /// Why there is no table.
@@ -199,7 +218,7 @@ impl JsonSchema for ExportName {
 #[derive(Debug, Clone, Default)]
 pub struct ExportData {
     /// Deviation of linear interpolation from the loss torque midway between the points, those at zero torque included: maximum and
-    /// root mean square. [Nm]
+    /// root mean square. Of a drive unit from its loss in W, which tables interpolate themselves or through the loss torque of the gearbox. [Nm]
     pub between: Option<(f64, f64)>,
     /// The rated torque. [Nm]
     pub rated: Option<f64>,
@@ -209,6 +228,19 @@ pub struct ExportData {
     pub no_load: Vec<LossAt>,
     /// Speed of the other port over that of the reference port; absent unless there are two ports.
     pub ratio: Option<f64>,
+    /// The machines of a map that shows them.
+    pub machines: Vec<MachineAtSpeeds>,
     /// As `between`, midway also between this oil temperature and the next one among the maps of the same set and gear. [Nm]
     pub between_oils: Option<(f64, f64)>,
+}
+
+/// A machine over the speeds of a grid.
+#[derive(Debug, Clone)]
+pub struct MachineAtSpeeds {
+    /// True at the reference port, whose torque and speed are those of the grid.
+    pub at_reference: bool,
+    /// True if its inverter is off without torque, so that its loss there is friction and iron alone.
+    pub freewheels: bool,
+    /// Largest torque at each speed; absent without an envelope. \[Nm\]
+    pub most: Option<Vec<f64>>,
 }

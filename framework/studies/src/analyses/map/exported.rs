@@ -1,14 +1,16 @@
 //! Solves the further points of a map that tables for other programs need.
 
+use gearloss_framework::machine::Machine;
+
 use super::super::units::speed_ratio;
 use super::super::{Engine, Planner, Stopped};
 use super::Map;
-use super::export::{ExportData, ExportName, Refusal};
+use super::export::{ExportData, ExportName, MachineAtSpeeds, Refusal};
 use super::map_of::MapOf;
 use super::plan::Planned;
 use super::shown::{LossAt, LossGrid};
 use crate::codes;
-use crate::points::{Given, Statistics, take_points};
+use crate::points::{Given, OilTemperature, Statistics, take_points};
 
 impl ExportData {
     pub(super) fn solve(engine: &Engine<'_>, formats: &[ExportName], map: &Map<'_>) -> Result<Self, Stopped> {
@@ -34,6 +36,7 @@ impl ExportData {
                 .collect::<Result<_, _>>()?,
             no_load,
             ratio: speed_ratio(&map.run.built.transmission, &map.run.points.gear),
+            machines: machines(map, &grid.axes.speeds),
             between_oils: None,
         })
     }
@@ -75,14 +78,8 @@ pub(super) fn check(
     let path = format!("{}.export", cx.path());
     let conditions = &cx.study.entry.conditions;
     for name in formats {
-        if !of.is_gearbox() && !name.format().takes_machines() {
-            let message = format!(
-                "`{}` describes losses between two shafts, not those{}",
-                name.format().name(),
-                of.words()
-            );
-            let help = "export `mat`, `matlab` or `modelica`, or delete `of`";
-            return Err(cx.wrong_as(codes::NO_MACHINE, &path, message, help));
+        if let Err(refusal) = name.format().takes(of) {
+            return Err(cx.wrong_as(codes::NO_MACHINE, &path, refusal.message, &refusal.help));
         }
         for plan in planned {
             let t = &plan.run.built.transmission;
@@ -105,6 +102,23 @@ pub(super) fn check(
         }
     }
     Ok(())
+}
+
+/// The machines of a map that shows them, over speeds of the reference port. \[rad/s\]
+fn machines(map: &Map<'_>, speeds: &[f64]) -> Vec<MachineAtSpeeds> {
+    if map.of.is_gearbox() {
+        return Vec::new();
+    }
+    let t = &map.run.built.transmission;
+    let machines = t.active_machines(map.run.points.oil == OilTemperature::Network);
+    let at_speeds = |machine: &Machine| MachineAtSpeeds {
+        at_reference: machine.port == t.reference_port(),
+        freewheels: machine.freewheels(),
+        most: machine
+            .envelope()
+            .map(|envelope| speeds.iter().map(|speed| envelope.most(*speed)).collect()),
+    };
+    machines.map(at_speeds).collect()
 }
 
 /// Losses at points of a map's gear, in order.
@@ -147,31 +161,61 @@ fn between(
         let beside_zero = beside_zero.into_iter().filter(|(torque, _)| *torque == 0.0);
         let shares: Vec<f64> = beside_zero.map(|(_, share)| share).chain([0.5]).collect();
         for k in 0..axes.speeds.len().saturating_sub(1) {
-            // The mean over all corners at one torque.
-            let at = |torque: usize| {
-                let all = grids
-                    .iter()
-                    .flat_map(|grid| [k, k + 1].map(|speed| grid.loss_torque(torque, speed)));
-                Some(all.sum::<Option<f64>>()? / (2 * grids.len()) as f64)
-            };
-            let Some((first, last)) = at(i).zip(at(i + 1)) else {
-                continue;
-            };
-            for share in &shares {
-                list.push(Given {
-                    torque: low + share * (high - low),
-                    speed: 0.5 * (axes.speeds[k] + axes.speeds[k + 1]),
-                    oil,
-                });
-                means.push(first + share * (last - first));
+            let speed = 0.5 * (axes.speeds[k] + axes.speeds[k + 1]);
+            for read in interpolated(map.of) {
+                // The mean over all corners at one torque.
+                let at = |torque: usize| {
+                    let corners = grids
+                        .iter()
+                        .flat_map(|grid| [k, k + 1].map(|speed| grid.loss(torque, speed)));
+                    let all = corners.map(|corner| read(corner?, speed));
+                    Some(all.sum::<Option<f64>>()? / (2 * grids.len()) as f64)
+                };
+                let Some((first, last)) = at(i).zip(at(i + 1)) else {
+                    continue;
+                };
+                for share in &shares {
+                    list.push(Given {
+                        torque: low + share * (high - low),
+                        speed,
+                        oil,
+                    });
+                    means.push(first + share * (last - first));
+                }
             }
         }
     }
-    let losses = loss_torques(engine, map, list)?;
+    let of_point = |loss: &LossAt| match map.of {
+        MapOf::Gearbox => loss.loss_torque,
+        MapOf::Unit | MapOf::Machine => loss.unit.map(|unit| unit.loss),
+    };
+    let losses = losses(engine, map, list)?;
     let gaps = means
         .into_iter()
-        .zip(losses)
-        .filter_map(|(mean, loss)| Some(mean - loss?));
+        .zip(&losses)
+        .filter_map(|(mean, loss)| Some(mean - of_point(loss)?));
     let gaps = Statistics::from_values(gaps);
     Ok(gaps.map(|g| (g.greatest.abs().max(g.least.abs()), g.rms)))
+}
+
+/// A quantity that tables interpolate, at a corner of a cell and the speed in its middle. \[rad/s\]
+type Interpolated = fn(&LossAt, f64) -> Option<f64>;
+
+/// What tables interpolate: the loss torque; of a drive unit its loss, or the loss torque of the gearbox with the losses of the machines.
+fn interpolated(of: MapOf) -> &'static [Interpolated] {
+    fn loss_torque(loss: &LossAt, _: f64) -> Option<f64> {
+        loss.loss_torque
+    }
+    fn whole(loss: &LossAt, _: f64) -> Option<f64> {
+        Some(loss.unit?.loss)
+    }
+    fn in_parts(loss: &LossAt, speed: f64) -> Option<f64> {
+        let unit = loss.unit?;
+        Some(unit.gearbox_torque? * speed.abs() + unit.point.machine_loss_w + unit.point.inverter_loss_w)
+    }
+    match of {
+        MapOf::Gearbox => &[loss_torque],
+        MapOf::Unit => &[whole, in_parts],
+        MapOf::Machine => &[whole],
+    }
 }

@@ -13,6 +13,7 @@ use super::map_of::MapOf;
 use super::points::MapPoints;
 use super::shown::ShownMap;
 use crate::analyses::limits::at_points::LimitColumn;
+use crate::analyses::outside_maps::MachineOutside;
 use crate::distinct::distinct;
 use crate::points::{Note, OilTemperature, WeakPoint};
 use crate::study::Envelope;
@@ -78,6 +79,9 @@ pub struct MapOfSet {
     pub parts: Vec<PartModel>,
     /// Number of iterations over the loss models.
     pub passes: usize,
+    /// Machines that are outside their loss maps at some points; absent if none is.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub outside_maps: Vec<MachineOutside>,
     /// Notes of models.
     pub notes: Vec<Note>,
     /// Formulas, defaults and data with low evidence grades.

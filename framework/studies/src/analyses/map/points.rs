@@ -15,6 +15,7 @@ use super::super::Run;
 use super::super::limits::at_points::LimitColumn;
 use super::super::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
+use crate::analyses::outside_maps::MachineOutside;
 use crate::correction::{Corrected, ReadyCorrection};
 use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss, UnitPoint};
 use crate::table::{Column, Table, Values};
@@ -211,6 +212,8 @@ pub struct Taken {
     pub undefined: Vec<UndefinedLoss>,
     /// Numbers of points with a loss inside and outside of the region of a correction.
     pub inside: [usize; 2],
+    /// Machines outside their maps.
+    pub outside_maps: Vec<MachineOutside>,
 }
 
 impl Taker<'_> {
@@ -232,6 +235,7 @@ impl Taker<'_> {
             lost: TotalLoss::of(points.iter().map(|(_, point)| &**point)),
             undefined: points.iter().filter_map(undefined).collect(),
             inside: self.inside(points),
+            outside_maps: MachineOutside::of(&self.run.built.transmission, points.iter().map(|(_, point)| &**point)),
         }
     }
 

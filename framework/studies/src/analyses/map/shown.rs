@@ -1,9 +1,11 @@
 //! Data of the points of a map for figures and text, independent of its rows.
 
+use gearloss_framework::machine::MachineState;
+
 use super::super::numbers::spread_over;
 use super::axes::Axes;
 use super::map_of::MapOf;
-use crate::points::{Field, Numbered, PointResult};
+use crate::points::{Field, Numbered, PointResult, UnitPoint};
 
 /// Grids with more points are shown by a selection of their rows and columns.
 const MOST_SHOWN: usize = 65_536;
@@ -118,15 +120,40 @@ pub struct LossAt {
     pub oil: Option<f64>,
     /// The usual sums of losses. \[W\]
     pub sums: [f64; 6],
+    /// The drive unit of a map that shows it or its machines.
+    pub unit: Option<UnitAt>,
+}
+
+/// A drive unit at one point, and its gearbox alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnitAt {
+    /// Powers and losses of the unit.
+    pub point: UnitPoint,
+    /// What the map shows: loss of the unit, or of its machines. \[W\]
+    pub loss: f64,
+    /// Power at the shafts of the machines. \[W\]
+    pub shafts: f64,
+    /// Loss of the gearbox over the speed of the reference port. \[Nm\]
+    pub gearbox_torque: Option<f64>,
+    /// The usual sums of losses of the gearbox. \[W\]
+    pub gearbox: [f64; 6],
 }
 
 impl LossAt {
     /// Of what a map shows.
     pub fn new(of: MapOf, point: &PointResult) -> Self {
-        let [efficiency, _, loss_torque] = of.read(point);
+        let [efficiency, loss, loss_torque] = of.read(point);
+        let unit = point.unit().zip(loss).filter(|_| !of.is_gearbox());
         Self {
             efficiency,
             loss_torque,
+            unit: unit.map(|(unit, loss)| UnitAt {
+                point: unit,
+                loss,
+                shafts: point.machines.iter().map(MachineState::shaft).sum(),
+                gearbox_torque: point.loss_torque,
+                gearbox: point.sums,
+            }),
             oil: point.oil,
             sums: of.sums(point),
         }
