@@ -4,8 +4,9 @@ use crate::common::{file, language};
 use gearloss::api::{Choice, Gearbox, InMemory, Language};
 use gearloss::studies::checked::CheckedGearbox;
 use gearloss_framework::codes;
-use gearloss_framework::evaluate::{LevelFrom, OilLevels, Point};
+use gearloss_framework::evaluate::{LevelFrom, OilLevels, Point, Solution};
 use gearloss_framework::transmission::Transmission;
+use proptest::prelude::*;
 use std::path::Path;
 
 /// The two-speed example with another description of its oil, bearings without oil heights of their own, and a churning law.
@@ -272,13 +273,12 @@ fn a_cycle_inclines_the_oil_as_a_stated_grade_does() {
                 (churning / stated_churning - 1.0).abs() < 300.0 * near,
                 "{travel} {degrees}: {churning} {stated_churning}"
             );
-            // The walls of the film are those above the level on a level road.
             assert!(
-                (own.running - of_stated.running).abs() < 0.5e-3,
+                (own.running - of_stated.running).abs() < 4.0 * near,
                 "{travel} {degrees}: {own:?} {of_stated:?}"
             );
             assert!(
-                (bearings / stated_bearings - 1.0).abs() < 0.02,
+                (bearings / stated_bearings - 1.0).abs() < 1000.0 * near,
                 "{travel} {degrees}: {bearings} {stated_bearings}"
             );
             assert!((own.estimate.unwrap().volume / level.0.estimate.unwrap().volume - 1.0).abs() < 1e-9);
@@ -399,8 +399,10 @@ fn lifted_oil_fills_pockets() {
         (inflow / (lifted * 0.02 / walls * 0.5) - 1.0).abs() < 1e-12,
         "{inflow} {lifted}"
     );
-    let (half, ..) = solved("width: 20 mm, walls: 800 mm, above: 0.25", 3000.0);
-    assert!((half / (lifted * 0.02 / 0.8 * 0.25) - 1.0).abs() < 1e-12);
+    // Another rib leaves another film on the walls, with which the level and what the gears lift differ a little.
+    let (half, _, own, _) = solved("width: 20 mm, walls: 800 mm, above: 0.25", 3000.0);
+    assert!((half / (own * 0.02 / 0.8 * 0.25) - 1.0).abs() < 1e-12);
+    assert!((own / lifted - 1.0).abs() < 0.01);
     // Below the speed at which gears throw oil there is none, and a typed flow stays.
     assert_eq!(solved("width: 20 mm", 100.0).0, 0.0);
     let (typed, ..) = solved("wetting: 20 l/min, width: 50 mm, walls: 400 mm", 100.0);
@@ -437,4 +439,166 @@ fn a_stated_share_of_the_case_that_is_not_drawn_is_said() {
         "{found:?}"
     );
     assert_eq!(with(""), []);
+}
+
+/// As filled at 20 degC and at 90 degC, with 7e-4 1/K.
+#[test]
+fn oil_expands() {
+    let text = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+    let text = text.replace(
+        "oil: { viscosity: { kv40: 46 mm2/s, kv100: 8 mm2/s } }",
+        "oil: { viscosity: { kv40: 46 mm2/s, kv100: 8 mm2/s }, density: { value: 850 kg/m3, at: 20 degC, expansion: 7e-4 1/K } }",
+    );
+    let text = text.replace("volume: 0.06 l, level: -38 mm", "volume: 0.12 l");
+    let t = of_text(&text);
+    let volume = solved(&t, 0.0, 90.0, 0.0, |solution| {
+        solution.oil_levels().unwrap().estimate.unwrap().volume
+    });
+    assert!((volume * 1e3 - 0.126_183).abs() < 5e-7, "{volume}");
+}
+
+fn of_text(text: &str) -> Transmission {
+    let (language, files) = (language(), InMemory::default().shared());
+    let gearbox = Gearbox::from_text(&language, &files, text, "slow.yaml", Path::new(""));
+    let gearbox = gearbox.unwrap_or_else(|found| panic!("{}", found.render()));
+    let t = gearbox.transmission(&language, &Choice::default());
+    t.unwrap_or_else(|found| panic!("{}", found.render()))
+}
+
+/// Reads a point with a speed in rpm, an oil temperature in degC and an inclination in rad.
+fn solved<T>(t: &Transmission, speed: f64, oil: f64, inclination: f64, read: impl FnOnce(&Solution<'_>) -> T) -> T {
+    let case = t.case(&t.states()[0].name, &[], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let point = Point {
+        speeds: &[speed * std::f64::consts::PI / 30.0],
+        torques: &[10.0],
+        inclination,
+        ..Point::default()
+    };
+    read(&t.evaluate(&case, &point, &[oil], &mut scratch))
+}
+
+/// What a level at rest costs that is taken for the one while rotating, by two laws in first gear at 6000 rpm.
+#[test]
+fn the_level_at_rest_of_the_two_speed_example_is_open() {
+    let language = language();
+    let watts = |level: &str, law: &str| {
+        let text = std::fs::read_to_string(file("examples/two-speed-ev/gearbox.yaml")).unwrap();
+        let text = text
+            .replace("level: -49 mm", level)
+            .replace("{ type: iso14179_2, speed_of: pinion }", law);
+        let files = InMemory::default().shared();
+        let gearbox = Gearbox::from_text(&language, &files, &text, "gearbox.yaml", Path::new("")).unwrap();
+        let t = gearbox.transmission(&language, &Choice::default()).unwrap();
+        let case = t.case("first", &[], &["input"]).unwrap();
+        let mut scratch = t.scratch(&case);
+        let point = Point {
+            speeds: &[6000.0 * std::f64::consts::PI / 30.0],
+            torques: &[15.0],
+            ..Point::default()
+        };
+        let solution = t.evaluate(&case, &point, &[100.0], &mut scratch);
+        let drags = solution.parts().filter(|(part, _)| part.mechanism == "gear_drag");
+        drags.map(|(_, loss)| loss.watts()).sum::<f64>()
+    };
+    for (law, low, high) in [
+        ("{ type: iso14179_2, speed_of: pinion }", "36.1", "152.9"),
+        (LYON, "5.29", "14.10"),
+    ] {
+        for (level, expected) in [("level: -49 mm", low), ("level: -9.2 mm", high)] {
+            let decimals = expected.split('.').nth(1).unwrap().len();
+            assert_eq!(format!("{:.decimals$}", watts(level, law)), expected, "{law} {level}");
+        }
+    }
+}
+
+/// The gears of the slow example with a window, a rib and pockets of known length, and a housing that travels.
+fn caught(volume: f64, edge: f64, keys: &str) -> Transmission {
+    let text = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+    let pocket = |catch: &str| format!("pocket: {{ edge: {edge} mm, edge_radius: 15 mm, length: 12 mm, {catch} }}");
+    let window = "window: { gear: wheel, y: -20 mm, bottom: -60 mm, top: 30 mm, from: 20 mm, to: 60 mm }";
+    of_text(
+        &text
+            .replace("volume: 0.06 l, level: -38 mm", &format!("volume: {volume} l{keys}"))
+            .replace(
+                "measured_from: shaft_out }",
+                "measured_from: shaft_out }\n  travel: \"+y\"",
+            )
+            .replace(
+                "at: 60 mm, designation: \"6205\" }",
+                &format!("at: 60 mm, designation: \"6205\", {} }}", pocket(window)),
+            )
+            .replace(
+                "at: 0 mm,  designation: \"6206\", axial: both }",
+                &format!(
+                    "at: 0 mm,  designation: \"6206\", axial: both, {} }}",
+                    pocket("catch: { width: 40 mm }")
+                ),
+            ),
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(10))]
+    /// Sump, walls, air and pockets hold the oil together at every speed, level, temperature and inclination.
+    #[test]
+    fn no_state_loses_oil(
+        litres in 0.03..0.2_f64, edge in 0.0..9.0_f64,
+        points in prop::collection::vec((-6000.0..6000.0_f64, -20.0..130.0_f64, -25.0..25.0_f64), 8)
+    ) {
+        let t = caught(litres, edge, "");
+        for (speed, oil, degrees) in points {
+            let inclination = f64::to_radians(degrees);
+            solved(&t, speed, oil, inclination, |solution| {
+                let levels = solution.oil_levels().unwrap();
+                let estimate = levels.estimate.unwrap();
+                let kept = t.oil_space().unwrap().at(inclination).volume(levels.running)[0];
+                let all = kept + estimate.missing + estimate.in_pockets + estimate.held;
+                assert!((all / estimate.volume - 1.0).abs() < 1e-9, "{speed} {oil} {degrees}: {levels:?}");
+                let resting = t.oil_space().unwrap().at(inclination).volume(levels.at_rest)[0];
+                assert!((resting / estimate.volume - 1.0).abs() < 1e-9);
+                // A level is found within 1e-13 m.
+                assert!(estimate.band.low() <= levels.running + 1e-12, "{speed} {oil} {degrees}: {levels:?}");
+                assert!(levels.running <= levels.at_rest, "{speed} {oil} {degrees}: {levels:?}");
+                assert!(estimate.after_minute <= levels.at_rest + 1e-12 && estimate.after_minute >= levels.running - 1e-12);
+                // What flows into pockets is part of what the gears lift.
+                let inflow: f64 = solution.pockets().map(|pocket| pocket.inflow).sum();
+                assert!(inflow <= estimate.lifted * (1.0 + 1e-12));
+                if speed.abs() < 200.0 {
+                    assert_eq!((estimate.lifted, levels.running.to_bits()), (0.0, levels.at_rest.to_bits()));
+                }
+            });
+        }
+    }
+}
+
+/// A window and a rib keep oil off the walls, and pockets hold some: both are in the level.
+#[test]
+fn pockets_windows_and_ribs_are_in_the_balance() {
+    let t = caught(0.1, 5.0, "");
+    let text = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+    let without = of_text(&text.replace("volume: 0.06 l, level: -38 mm", "volume: 0.1 l"));
+    for speed in [3000.0, -3000.0] {
+        let of = |t: &Transmission| {
+            solved(t, speed, 80.0, 0.0, |solution| {
+                let pockets: Vec<f64> = solution.pockets().map(|pocket| pocket.inflow).collect();
+                (solution.oil_levels().unwrap().estimate.unwrap(), pockets)
+            })
+        };
+        let ((own, pockets), (plain, _)) = (of(&t), of(&without));
+        assert!(own.in_pockets > 0.0 && plain.in_pockets == 0.0, "{own:?}");
+        // What the window takes and the rib catches does not wet the wall below.
+        let rib = pockets.last().unwrap();
+        assert!(
+            *rib > 0.0 && own.missing < plain.missing,
+            "{own:?} {plain:?} {pockets:?}"
+        );
+        if pockets[0] > 0.0 {
+            assert!(
+                (rib / ((own.lifted - pockets[0]) * 0.04 / t.oil_space().unwrap().walls().length * 0.5) - 1.0).abs()
+                    < 1e-12
+            );
+        }
+        assert!(own.on_gears > 0.0 && own.on_gears < 5e-6, "{own:?}");
+    }
 }

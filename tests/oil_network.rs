@@ -332,3 +332,122 @@ fn chambers_lower_the_level_while_rotating() {
     assert!((kept / own.volume - 1.0).abs() < 1e-11, "{own:?}");
     assert!(own.band.low() <= with.running && with.running <= own.band.high());
 }
+
+/// The gearbox of the tests with other texts in its place.
+fn replaced(texts: &[(&str, &str)]) -> Transmission {
+    let text = std::fs::read_to_string(common::file("tests/oil_network/gearbox.yaml")).unwrap();
+    let text = texts.iter().fold(text, |text, (old, new)| {
+        assert!(text.contains(old), "{old}");
+        text.replace(old, new)
+    });
+    let (language, files) = (language(), gearloss::api::InMemory::default().shared());
+    let gearbox = Gearbox::from_text(&language, &files, &text, "replaced.yaml", std::path::Path::new(""));
+    let gearbox = gearbox.unwrap_or_else(|found| panic!("{}", found.render()));
+    let t = gearbox.transmission(&language, &Choice::default());
+    t.unwrap_or_else(|found| panic!("{}", found.render()))
+}
+
+fn solve_inclined<T>(t: &Transmission, degrees: f64, read: impl FnOnce(&Solution<'_>) -> T) -> T {
+    let case = t.case("only", &["input"], &["input"]).unwrap();
+    let mut scratch = t.scratch(&case);
+    let point = Point {
+        speeds: &[3000.0 * RPM],
+        torques: &[40.0],
+        inclination: degrees.to_radians(),
+        ..Point::default()
+    };
+    read(&t.evaluate(&case, &point, &[80.0], &mut scratch))
+}
+
+/// Junctions and mouths whose places are stated go up and down with the housing, while it travels as in one that stands inclined.
+#[test]
+fn heights_of_the_network_follow_the_inclination() {
+    let with = |place: &str, keys: &str| {
+        let housing = format!("volume: 1.2 l }}\n{keys}");
+        replaced(&[
+            ("volume: 2.5 l, level: -80 mm }\n", &housing),
+            (
+                "suction: { height: -90 mm }",
+                &format!("suction: {{ height: -90 mm{place} }}"),
+            ),
+        ])
+    };
+    let suction = |t: &Transmission, degrees: f64| {
+        solve_inclined(t, degrees, |solution| {
+            let supply = solution.oil_supply().unwrap();
+            (supply.junctions[0].1, solution.oil_levels().unwrap().running)
+        })
+    };
+    for (place, height_at, travel, stated) in [
+        // The datum is the origin of the housing.
+        (", x: 20 mm, y: 250 mm", [0.0, 0.25, -0.09], "+y", "bank"),
+        (", x: -60 mm, y: 95 mm", [-0.06, 0.095, -0.09], "+x", "grade"),
+    ] {
+        let travels = with(place, &format!("  travel: \"{travel}\"\n"));
+        let unplaced = with("", &format!("  travel: \"{travel}\"\n"));
+        let level = suction(&with(place, ""), 0.0);
+        assert_eq!(suction(&travels, 0.0), level);
+        assert_eq!(suction(&with("", ""), 0.0), level);
+        let said = |t: &Transmission| {
+            t.warnings
+                .iter()
+                .any(|found| found.code == Some(gearloss_framework::codes::LEVEL_HEIGHT))
+        };
+        assert!(said(&unplaced));
+        for degrees in [10.0_f64, -6.0] {
+            let own = suction(&travels, degrees);
+            let of_stated = suction(&with(place, &format!("  {stated}: {degrees} deg\n")), 0.0);
+            assert!((own.0 - of_stated.0).abs() < 1e-3, "{own:?} {of_stated:?}");
+            // The pressure differs by the column between both heights.
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let [x, y, z] = height_at;
+            let height = sine * if travel == "+x" { x } else { y } + cosine * z;
+            let flat = suction(&unplaced, degrees);
+            let rho = solve_inclined(&travels, degrees, |solution| {
+                reading(&travels, solution, "auxiliaries.bore", "rho")
+            });
+            let column = rho * 9.80665 * (z - height);
+            assert!(
+                (own.0 - flat.0 - column).abs() < 0.02 * column.abs(),
+                "{own:?} {flat:?} {column}"
+            );
+        }
+    }
+}
+
+/// A chamber holds the depth over the middle of its floor; its holes are at one side of it.
+#[test]
+fn chambers_hold_more_with_their_holes_uphill() {
+    let room = "  chambers: { room: { floor: 20 cm2, drain_y: 30 mm, drain: { diameter: 5 mm, length: 8 mm } } }\n";
+    let t = replaced(&[
+        (
+            "models:\n",
+            "models:\n  gear_drag: { churning: { type: changenet_2011 } }\n",
+        ),
+        (
+            "volume: 2.5 l, level: -80 mm }\n",
+            "volume: 1.2 l }\n  travel: \"+y\"\n",
+        ),
+        ("{ height: -90 mm }", "{ height: -90 mm, y: 0 mm }"),
+        ("{ height: 60 mm }", "{ height: 60 mm, y: 0 mm }"),
+        ("{ height: 0 mm }", "{ height: 0 mm, y: 0 mm }"),
+        ("inlet_height: -112 mm", "inlet_height: -112 mm, inlet_y: 100 mm"),
+        ("oil_network:\n", &format!("oil_network:\n{room}")),
+        ("count: 2, feeds: [meshes.M2]", "count: 2, feeds: [meshes.M2], to: room"),
+    ]);
+    for degrees in [0.0_f64, 8.0, -8.0] {
+        solve_inclined(&t, degrees, |solution| {
+            let supply = solution.oil_supply().unwrap();
+            let chamber = &supply.chambers[0];
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let expected = 20e-4 * ((chamber.height + 0.03 * sine) / cosine).max(0.0);
+            assert_close(chamber.volume, expected, 1e-12);
+            let levels = solution.oil_levels().unwrap();
+            let estimate = levels.estimate.unwrap();
+            assert_close(estimate.held, expected, 1e-12);
+            let space = t.oil_space().unwrap().at(degrees.to_radians());
+            let kept = space.volume(levels.running)[0] + estimate.missing + estimate.held;
+            assert!((kept / estimate.volume - 1.0).abs() < 1e-10, "{degrees} {levels:?}");
+        });
+    }
+}

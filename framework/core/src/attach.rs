@@ -185,6 +185,15 @@ pub struct Incline<'a, R = f64> {
     pub angle: R,
 }
 
+impl<R: Points> Incline<'_, R> {
+    /// The upward direction at a point; that as built without one.
+    #[inline]
+    pub(crate) fn up(&self, point: usize) -> Option<[f64; 3]> {
+        let angle = self.angle.at_point(point);
+        (angle != 0.0).then(|| self.travel.up(angle))
+    }
+}
+
 /// Least rise across an axis.
 const UPRIGHT: f64 = 1e-6;
 
@@ -229,11 +238,9 @@ impl Level {
         };
         let [place, direction] = axis;
         let at = |point: usize| {
-            let angle = incline.angle.at_point(point);
-            if angle == 0.0 {
+            let Some(up) = incline.up(point) else {
                 return [height, slope];
-            }
-            let up = incline.travel.up(angle);
+            };
             let dot = |a: [f64; 3]| up[0] * a[0] + up[1] * a[1] + up[2] * a[2];
             let along = dot(direction);
             let across = (1.0 - along * along).max(0.0).sqrt().max(UPRIGHT);

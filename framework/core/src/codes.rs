@@ -175,4 +175,7 @@ gearloss_document::codes! {
     MISSED_WINDOW = "W0360", "no oil comes through a window",
         cause: "The oil that the gear of a window throws at the rated speed passes the window of a pocket, or the gear throws none.",
         help: "Move the window, name another gear, or check the sense of rotation and the oil level.";
+    LEVEL_HEIGHT = "W0362", "heights of the oil network do not follow the inclination",
+        cause: "The housing is inclined or travels, and the place of a junction or of a mouth along and across the shafts is not stated.",
+        help: "State `x` and `y` of the junction, or `inlet_x` and `inlet_y` of the pipe.";
 }

@@ -21,8 +21,8 @@ pub use oil_supply::{ChamberLevel, ElementFlow, OilSupply, PocketLevel, SupplyFi
 pub use ratings::{ComponentRating, Ratings};
 pub(crate) use readings::readings;
 pub use readings::{MemberTorques, Reading};
-use scratch::Models;
 pub use scratch::Scratch;
+use scratch::{Models, incline};
 pub(crate) use snapshot::Asked;
 pub use snapshot::Snapshot;
 pub use solution::{PartLoss, PreloadAt, Solution, ToothForceAt};
@@ -42,7 +42,7 @@ use crate::mechanism::worm_mesh::{WormMesh, WormMeshAt, WormPart};
 use crate::real::{Mask as _, Points, Real};
 use crate::sump::CAPTURE;
 use crate::thermal::Unbalanced;
-use crate::transmission::{Case, Component, CrossedTeeth, MeshLaw, Sharing, Surface, Transmission};
+use crate::transmission::{Case, Component, CrossedTeeth, MeshLaw, Pockets, Sharing, Surface, Transmission};
 
 /// Whether torque downstream is reduced by upstream losses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -234,6 +234,7 @@ impl Transmission {
                 speeds: &c.speeds,
                 oils: &c.oils,
                 surface: c.surface,
+                incline: incline(c.travel.as_ref(), c.inclination),
             },
             &mut c.hydraulics,
         );
@@ -268,22 +269,30 @@ impl Transmission {
                 speeds: &c.speeds,
                 oils: &c.oils,
                 surface: c.surface,
+                incline: incline(c.travel.as_ref(), c.inclination),
             };
             let held = self.hydraulics.held(&c.hydraulics, &at);
-            let running = sump.running((c.rest, c.inclination), held, &c.oils, &m.lifted);
-            if let Some((_, place)) = estimated {
-                c.surface = if place == 0.0 {
-                    running.film_level(CAPTURE[1])
-                } else {
-                    running.band().at(place)
+            let (wet, length) = {
+                let catchers = Pockets {
+                    network: &self.hydraulics,
+                    work: &c.hydraulics,
+                    speeds: &c.speeds,
+                    oils: &c.oils,
                 };
-            }
-            if wetting.is_some() {
-                let nu = c.oils[sump.oil].nu;
-                let [_, flow] = running.missing(|i| m.lifted[i], c.surface, nu, CAPTURE[1]);
+                let running = sump.running((c.rest, c.inclination), held, &c.oils, &m.lifted, (catchers, starts));
+                if let Some((_, place)) = estimated {
+                    c.surface = if place == 0.0 {
+                        running.film_level(CAPTURE[1])
+                    } else {
+                        running.band().at(place)
+                    };
+                }
+                let wet = wetting.map(|_| running.outside(|x| x, c.surface, CAPTURE[1]).wetting);
+                (wet, running.walls.length)
+            };
+            if let Some(wet) = wet {
                 let thrown = |window: &Window| sump.through(window, (&c.speeds, c.surface), &m.lifted).1;
-                self.hydraulics
-                    .catch((flow, sump.walls().length), thrown, &at, &mut c.hydraulics);
+                self.hydraulics.catch((wet, length), thrown, &at, &mut c.hydraulics);
             }
         }
         let (state, book) = c.open(noting != Noting::Muted);

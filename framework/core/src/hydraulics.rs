@@ -13,9 +13,9 @@ mod window;
 pub use channel::{Channel, friction_factor};
 pub use edge::Edge;
 pub(crate) use network::Inputs;
-pub use network::{Driver, Element, End, Fluid, Hydraulics, Law, Relief, Supplies, Supply};
+pub use network::{Driver, Element, End, Fluid, Hydraulics, Law, Place, Relief, Supplies, Supply};
 pub use orifice::Orifice;
-pub use pocket::{Chamber, Pocket, Rib};
+pub use pocket::{Chamber, Pocket, Rib, Room};
 pub(crate) use solve::Work;
 pub use window::{Taken, Window};
 

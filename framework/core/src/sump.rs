@@ -3,6 +3,7 @@
 //! Heights are above a datum, along the upward direction of the housing, in m; volumes in m3.
 
 mod disc;
+mod films;
 mod hull;
 mod inclined;
 mod outline;
@@ -10,10 +11,13 @@ mod running;
 mod space;
 
 pub use disc::Disc;
+pub use films::{drawn, film, left_on_flank, left_on_wall};
 pub use hull::{CHORDS, hull};
-pub use inclined::{AnySpace, Inclinations, STEEPEST, Travel, apparent_grade};
+pub use inclined::{AnySpace, Inclinations, InclinedWalls, STEEPEST, Travel, apparent_grade};
 pub use outline::{Outline, Profile};
-pub use running::{Band, CAPTURE, LEAST_SPLASH, Lift, Lifted, Running, Walls, effective_share, film};
+pub use running::{
+    Band, CAPTURE, Catchers, Caught, LEAST_SPLASH, Lift, Lifted, Outside, Running, Walls, effective_share,
+};
 pub use space::{Crowded, Space};
 
 #[cfg(test)]

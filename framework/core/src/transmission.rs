@@ -3,6 +3,7 @@
 mod axis;
 mod build;
 mod case;
+mod catchers;
 mod crossed;
 mod crossed_gearing;
 mod drag_models;
@@ -46,9 +47,11 @@ pub use sump::Sump;
 pub use torque_order::{TorqueBlock, TorqueOrder};
 
 pub(crate) use case::Cases;
+pub(crate) use catchers::Pockets;
 pub(crate) use states::RowName;
 
 pub(crate) use nodes::NodeNames;
+pub(crate) use oil_network::raceway;
 pub(crate) use planets::Sharing;
 pub(crate) use transfers::{Transfer, TransferLaw};
 

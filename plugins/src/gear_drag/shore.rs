@@ -221,3 +221,57 @@ register!(GearDrag, "shore", Params,
         },
     ],
     limits: [SWELL, SPEED], terms: [TERM], observed: [H_EFF], prepare: prepare);
+
+#[cfg(test)]
+mod tests {
+    use gearloss_framework::sump::Lift;
+    use gearloss_framework::testing::{assert_close, eval};
+
+    /// Loss of the wheel of the rig with the oil 35 mm above the bottom of its case of 160 mm: 25 mm at the reference circle, 0.1618 of the case.
+    fn loss(speed: f64, [radial, axial]: [f64; 2]) -> f64 {
+        let input = format!(
+            "{{ model: {{ type: shore, fill: 0.1618 }}, part: {{ gear: {{ z: 35, normal_module: 4 mm, pressure_angle: 20 deg, facewidth: 20 mm, \
+             reference_diameter: 140 mm, working_diameter: 140 mm, tip_diameter: 148 mm, root_diameter: 130 mm, contact_height: 1 mm }}, \
+             radial_clearance: {radial} mm, axial_clearance: {axial} mm }}, \
+             at: {{ speed: {speed} rad/s, dip: 25 mm, nu: 10 mm2/s, rho: 830 kg/m3 }} }}"
+        );
+        eval("gear_drag/shore", &input).total
+    }
+
+    /// The faster the gear, the less of what full tooth spaces would carry can its churning power lift.
+    #[test]
+    fn full_tooth_spaces_break_the_bound_of_energy() {
+        let gear = Lift {
+            height: 0.0,
+            slope: 1.0,
+            orbit: 0.0,
+            radii: [74e-3, 70e-3, 65e-3],
+            width: 20e-3,
+            teeth: 35.0,
+        };
+        for (rim, share) in [
+            (7.4, "0.20"),
+            (14.8, "0.057"),
+            (29.6, "0.017"),
+            (51.8, "0.0077"),
+            (92.5, "0.0036"),
+        ] {
+            let speed = rim / 74e-3;
+            let lifted = gear.lifted(loss(speed, [6.0, 30.0]), speed, 830.0);
+            let expected: f64 = share.parse().unwrap();
+            let unit = 10.0_f64.powi(-(share.len() as i32 - 2));
+            assert!(
+                (lifted.flow / lifted.most - expected).abs() <= 0.5 * unit,
+                "{rim} {lifted:?}"
+            );
+        }
+    }
+
+    /// Halving a gap: axial gaps matter more than radial ones.
+    #[test]
+    fn narrow_gaps_lower_the_torque() {
+        let wide = loss(100.0, [6.0, 30.0]);
+        assert_close(loss(100.0, [3.0, 30.0]) / wide, 0.946, 5e-4);
+        assert_close(loss(100.0, [6.0, 15.0]) / wide, 0.790, 5e-4);
+    }
+}

@@ -47,6 +47,12 @@ pub struct JunctionEntry {
     /// Height above the datum of the oil level; default: that of the oil surface, which adds no pressure. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub height: Option<f64>,
+    /// x in the housing, with which the height follows its inclination; default: with `y`, the middle of the oil space. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub x: Option<f64>,
+    /// y in the housing; default: with `x`, the middle of the oil space. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub y: Option<f64>,
 }
 
 /// A displacement pump. An auxiliary whose model names it computes its torque on the shaft.
@@ -122,6 +128,13 @@ pub struct PipeEntry {
     /// Height of its mouth in the sump above the datum of the oil level, for the finding that it draws air. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub inlet_height: Option<f64>,
+    /// x of that mouth in the housing, with which its height follows the inclination; default: with `inlet_y`, the middle of the oil space.
+    /// [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub inlet_x: Option<f64>,
+    /// y of that mouth in the housing; default: with `inlet_x`, the middle of the oil space. [mm]
+    #[schemars(range(min = -1e5, max = 1e5))]
+    pub inlet_y: Option<f64>,
     /// Components that its flow reaches, in equal shares, such as `bearings.B1`.
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "component"))]
@@ -248,6 +261,14 @@ pub struct ChamberEntry {
     pub height: Option<f64>,
     /// Its holes.
     pub drain: HoleEntry,
+    /// Place of the holes along x from the middle of the floor, for an inclined housing. [mm]
+    #[serde(default)]
+    #[schemars(range(min = -1e4, max = 1e4))]
+    pub drain_x: f64,
+    /// Place of the holes along y from the middle of the floor, for an inclined housing. [mm]
+    #[serde(default)]
+    #[schemars(range(min = -1e4, max = 1e4))]
+    pub drain_y: f64,
     /// Where it drains: a chamber or `sump`.
     #[serde(default = "sump")]
     #[schemars(extend("x-refers-to" = ["oil_network.chambers", "sump"]))]
@@ -280,6 +301,10 @@ pub struct PocketEntry {
     pub rib: Option<CatchEntry>,
     /// Window or open front through which a gear throws oil into the pocket.
     pub window: Option<WindowEntry>,
+    /// Length of the pocket along the shaft, with the free part of the bearing: the oil in it is missing from an estimated level while
+    /// rotating. Default: none is subtracted. [mm]
+    #[schemars(range(min = 0.0, max = 1e4))]
+    pub length: Option<f64>,
 }
 
 /// A window in a wall beside a gear, with its places in the housing. What it takes of the oil that the gear lifts follows from the flight.

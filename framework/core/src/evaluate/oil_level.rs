@@ -1,11 +1,14 @@
 //! Where the oil stands at a point: at rest and while rotating, with the estimates.
 
 use super::Solution;
-use crate::attach::Oil;
+use super::scratch::incline;
 use crate::hydraulics::Inputs;
 use crate::real::Points as _;
-use crate::sump::{Band, CAPTURE};
-use crate::transmission::Surface;
+use crate::sump::{Band, CAPTURE, left_on_wall};
+use crate::transmission::{Pockets, Surface};
+
+/// Time after a stop at which a dipstick is read. \[s\]
+const MINUTE: f64 = 60.0;
 
 /// Where the level while rotating comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, schemars::JsonSchema)]
@@ -43,6 +46,12 @@ pub struct LevelEstimate {
     pub lifted: f64,
     /// Oil on the walls and in the air, by the same. \[m3\]
     pub missing: f64,
+    /// Oil in the pockets of bearings whose length is known, by the same. \[m3\]
+    pub in_pockets: f64,
+    /// Oil on the flanks of the gears, which is so little that the level does not have it. \[m3\]
+    pub on_gears: f64,
+    /// The level a minute after a stop, when a film is left on the walls. \[m\]
+    pub after_minute: f64,
     /// Oil in chambers that drain into the sump. \[m3\]
     pub held: f64,
     /// Greatest speed of a tip circle that dips into the oil at rest; `None` without gears with a churning law. \[m/s\]
@@ -66,18 +75,29 @@ impl Solution<'_> {
                 speeds: &c.speeds,
                 oils: &c.oils,
                 surface: c.surface,
+                incline: incline(c.travel.as_ref(), c.inclination),
             };
             let held = t.hydraulics.held(&c.hydraulics, &at);
-            let running = sump.running((c.rest, c.inclination), held, &c.oils, &lifted);
+            let catchers = Pockets {
+                network: &t.hydraulics,
+                work: &c.hydraulics,
+                speeds: &c.speeds,
+                oils: &c.oils,
+            };
+            let running = sump.running((c.rest, c.inclination), held, &c.oils, &lifted, (catchers, !0));
             let band = running.band();
-            let nu = c.oils.get(sump.oil).map_or(0.0, |oil: &Oil| oil.nu);
-            let [missing, flow] = running.missing(|i| lifted[i], band.films[1], nu, CAPTURE[1]);
+            let outside = running.outside(|x| x, band.films[1], CAPTURE[1]);
+            let space = (running.space)(0);
+            let left = left_on_wall(running.nu, space.top() - running.rest, MINUTE) * running.walls.area;
             LevelEstimate {
                 rim: (!lifted.is_empty()).then(|| running.fastest_rim()),
                 band,
                 volume: running.stock + held,
-                lifted: flow,
-                missing,
+                lifted: outside.flow,
+                missing: outside.on_walls + outside.in_air,
+                in_pockets: outside.in_pockets,
+                on_gears: running.on_gears(0),
+                after_minute: space.level(running.stock - left.min(outside.on_walls)),
                 held,
                 drawn: sump.is_drawn(),
             }

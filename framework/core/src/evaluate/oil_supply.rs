@@ -1,8 +1,9 @@
 //! What the oil network supplies at a solved point, and what is too little.
 
 use super::Solution;
+use super::scratch::incline;
 use crate::hydraulics::{Element, End, Inputs, Law, Window};
-use crate::transmission::{PartInfo, PartKind};
+use crate::transmission::raceway;
 
 /// Pressure of the surroundings. \[Pa\]
 const ATMOSPHERE: f64 = 1.01325e5;
@@ -133,6 +134,7 @@ impl Solution<'_> {
             speeds: &c.speeds,
             oils: &c.oils,
             surface: c.surface,
+            incline: incline(c.travel.as_ref(), c.inclination),
         };
         let levels = network.chambers(work, &at);
         let chambers = network.chambers.iter().zip(levels);
@@ -168,11 +170,11 @@ impl Solution<'_> {
                 })
                 .collect(),
             chambers: chambers
-                .map(|(chamber, [height, flow])| ChamberLevel {
+                .map(|(chamber, [height, flow, volume])| ChamberLevel {
                     name: chamber.name.clone(),
                     flow,
                     height,
-                    volume: height * chamber.floor,
+                    volume,
                 })
                 .collect(),
             findings: Vec::new(),
@@ -185,16 +187,7 @@ impl Solution<'_> {
     pub fn pockets(&self) -> impl Iterator<Item = PocketLevel<'_>> {
         let (t, work) = (self.transmission, &self.scratch.models.conditions.hydraulics);
         let network = &t.hydraulics;
-        let raceway = move |bearing: &str| {
-            let is_of = |part: &&PartInfo| {
-                let rest = part.path.strip_prefix(bearing);
-                rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-            };
-            match t.parts.iter().find(is_of)?.kind {
-                PartKind::Component(component) => t.components[component].placed.lowest(),
-                PartKind::Mesh(_) | PartKind::Drag(_) | PartKind::Transfer(_) => None,
-            }
-        };
+        let raceway = move |bearing: &str| raceway(&t.parts, &t.components, bearing);
         network
             .pockets
             .iter()
@@ -258,7 +251,7 @@ impl Solution<'_> {
         let is_driven = network.elements.iter().any(rotates);
         for (element, flow) in network.elements.iter().zip(&supply.elements) {
             if let (Some(inlet), Law::Pipe(pipe)) = (element.inlet, &element.law) {
-                let depth = c.surface - inlet;
+                let depth = c.surface - inlet.height(incline(c.travel.as_ref(), c.inclination));
                 if depth < LEAST_DEPTH * pipe.diameter {
                     let place = if depth < 0.0 {
                         format!("{:.1} mm above", -1e3 * depth)

@@ -43,6 +43,12 @@ pub(super) struct Conditions<R: Points> {
     pub calls: Cell<usize>,
 }
 
+/// The inclination of a housing that travels. \[rad\]
+#[inline(always)]
+pub(super) fn incline<R>(travel: Option<&Travel>, angle: R) -> Option<Incline<'_, R>> {
+    travel.map(|travel| Incline { travel, angle })
+}
+
 impl<R: Points> Conditions<R> {
     /// What models read, and the notebook; a closed one unless they note.
     #[inline(always)]
@@ -53,10 +59,7 @@ impl<R: Points> Conditions<R> {
             temperatures: &self.temperatures,
             surface: self.surface,
             rest: self.rest,
-            incline: self.travel.as_ref().map(|travel| Incline {
-                travel,
-                angle: self.inclination,
-            }),
+            incline: incline(self.travel.as_ref(), self.inclination),
             supplies: Supplies {
                 elements: &self.hydraulics.supplies,
                 pockets: &self.hydraulics.pockets,

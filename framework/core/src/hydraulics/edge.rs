@@ -104,7 +104,7 @@ impl Edge {
 }
 
 /// Area of a segment of a circle up to a depth. \[m2\]
-fn segment(radius: f64, depth: f64) -> f64 {
+pub(super) fn segment(radius: f64, depth: f64) -> f64 {
     let share = (1.0 - depth / radius).clamp(-1.0, 1.0);
     // Half the angle; the difference of nearly equal numbers has a series.
     let half = (0.5 * (1.0 - share)).sqrt().asin() * 2.0;

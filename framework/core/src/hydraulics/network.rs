@@ -2,8 +2,8 @@
 
 use super::pocket::Chamber;
 use super::{Channel, GRAVITY, Orifice, Pocket};
-use crate::attach::Oil;
-use crate::real::{Mask as _, Real};
+use crate::attach::{Incline, Oil};
+use crate::real::{Mask as _, Points, Real};
 
 /// Where an element begins or ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,6 +14,28 @@ pub enum End {
     Sump,
     /// The air of the housing: a free jet or a chamber.
     Open,
+}
+
+/// How high a part of the network is in the housing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Height above the datum of the oil level, as built. \[m\]
+    pub height: f64,
+    /// The place from the datum, if it is known; otherwise the height is that at any inclination. \[m\]
+    pub at: Option<[f64; 3]>,
+}
+
+impl Place {
+    /// Its height above the datum at an inclination. \[m\]
+    pub(crate) fn height<R: Points>(&self, incline: Option<Incline<'_, R>>) -> R {
+        match (self.at, incline) {
+            (Some(at), Some(incline)) => R::each(|point| match incline.up(point) {
+                Some(up) => up[0] * at[0] + up[1] * at[1] + up[2] * at[2],
+                None => self.height,
+            }),
+            _ => R::constant(self.height),
+        }
+    }
 }
 
 /// A relief valve at the delivery of a pump, which returns oil to the sump.
@@ -84,8 +106,8 @@ pub struct Element {
     pub feeds: Vec<String>,
     /// Chamber into which it ends, by number.
     pub chamber: Option<usize>,
-    /// Height of its mouth in the sump above the datum of the oil level. \[m\]
-    pub inlet: Option<f64>,
+    /// Its mouth in the sump.
+    pub inlet: Option<Place>,
 }
 
 /// Oil with its share of free air.
@@ -128,12 +150,14 @@ pub struct Supplies<'a, R = f64> {
 pub struct Hydraulics {
     /// Names of the junctions.
     pub junctions: Vec<String>,
-    /// Height of each junction above the datum of the oil level; at the surface of the sump without. \[m\]
-    pub heights: Vec<Option<f64>>,
+    /// Place of each junction; at the surface of the sump without.
+    pub heights: Vec<Option<Place>>,
     /// Elements.
     pub elements: Vec<Element>,
     /// Volume share of free air.
     pub air: f64,
+    /// The upward direction of the housing as built; zeros if there are no chambers.
+    pub up: [f64; 3],
     /// Chambers, each before those into which it drains.
     pub chambers: Vec<Chamber>,
     /// Pockets of bearings.
@@ -154,6 +178,19 @@ pub(crate) struct Inputs<'a, R> {
     pub oils: &'a [Oil<R>],
     /// Surface of the sump above the datum. \[m\]
     pub surface: R,
+    /// Inclination of the housing, if a point has any.
+    pub incline: Option<Incline<'a, R>>,
+}
+
+impl<R> Fluid<R> {
+    /// The same in other numbers.
+    pub fn map<T>(self, of: impl Fn(R) -> T) -> Fluid<T> {
+        Fluid {
+            nu: of(self.nu),
+            eta: of(self.eta),
+            rho: of(self.rho),
+        }
+    }
 }
 
 impl Hydraulics {
@@ -174,11 +211,11 @@ impl Hydraulics {
     }
 
     /// Pressure that heights and rotation add from the beginning to the end of an element. \[Pa\]
-    pub(super) fn gain<R: Real>(&self, element: &Element, fluid: &Fluid<R>, at: &Inputs<'_, R>) -> R {
+    pub(super) fn gain<R: Points>(&self, element: &Element, fluid: &Fluid<R>, at: &Inputs<'_, R>) -> R {
         let mut gain = R::ZERO;
         if self.heights.iter().any(Option::is_some) {
             let height = |end: End| match end {
-                End::Node(node) => Some(self.heights[node].map_or(at.surface, R::constant)),
+                End::Node(node) => Some(self.heights[node].map_or(at.surface, |place| place.height(at.incline))),
                 End::Sump => Some(at.surface),
                 End::Open => None,
             };

@@ -1,9 +1,13 @@
 //! Pockets at bearings and chambers: how high the oil stands that flows in and out.
 
+use super::edge::segment;
 use super::network::{Fluid, Hydraulics, Inputs};
 use super::solve::Work;
 use super::{Edge, GRAVITY, Orifice, Window};
 use crate::real::{Mask as _, Points, Real};
+
+/// Least rise of the upward direction over a floor: steeper floors hold no known volume.
+const LEAST_RISE: f64 = 0.1;
 
 /// Maximum number of steps to the height of the oil in a pocket.
 const MOST_STEPS: usize = 200;
@@ -15,8 +19,10 @@ pub struct Chamber {
     pub name: String,
     /// Its holes.
     pub drain: Orifice,
-    /// Area of its floor; its walls are vertical. \[m2\]
+    /// Area of its floor; its walls are perpendicular to it. \[m2\]
     pub floor: f64,
+    /// Place of its holes from the middle of the floor, along x and y. \[m\]
+    pub holes: [f64; 2],
     /// Height of its walls over the holes. \[m\]
     pub height: Option<f64>,
     /// Number of its oil.
@@ -44,8 +50,36 @@ pub struct Pocket {
     pub rib: Option<Rib>,
     /// Window through which a gear throws oil.
     pub window: Option<Window>,
+    /// The space in which its oil stands; not known without.
+    pub room: Option<Room>,
     /// Number of its oil.
     pub oil: u16,
+}
+
+/// The space of a pocket between a bearing and its cover or seal: a ring around the shaft.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Room {
+    /// Length along the shaft. \[m\]
+    pub length: f64,
+    /// Radii of the lowest point of the raceway and of the shaft. \[m\]
+    pub radii: [f64; 2],
+}
+
+impl Room {
+    /// Oil in it up to a height over the lowest point of the raceway. \[m and m3\]
+    pub fn volume<R: Real>(&self, height: R) -> R {
+        let [outer, inner] = self.radii;
+        height.lift(|h| self.length * (segment(outer, h) - segment(inner, h - (outer - inner))))
+    }
+}
+
+impl Chamber {
+    /// Oil in it for a flow (m3/s) that stands at a height over its holes (m), with the upward direction of the housing. With vertical walls it
+    /// is the depth over the middle of the floor times its area; exact while oil covers the whole floor. \[m3\]
+    fn volume<R: Real>(&self, flow: R, head: R, [x, y, z]: [R; 3]) -> R {
+        let depth = (head + x * self.holes[0] + y * self.holes[1]) / z.at_least(LEAST_RISE);
+        R::select(flow.is_zero(), R::ZERO, depth.at_least(0.0) * self.floor)
+    }
 }
 
 /// A rib on a wall down which oil runs that gears have thrown there.
@@ -60,18 +94,34 @@ pub struct Rib {
 }
 
 impl Rib {
+    /// Its length over that of the walls (m), at most 1.
+    fn part<R: Real>(&self, walls: R) -> R {
+        (R::constant(self.width) / self.walls.map_or(walls, R::constant)).at_most(1.0)
+    }
+
     /// Part of the oil on the walls, of this horizontal length (m), that it catches.
-    pub fn share(&self, walls: f64) -> f64 {
-        (self.width / self.walls.unwrap_or(walls)).min(1.0) * self.above
+    pub fn share<R: Real>(&self, walls: R) -> R {
+        self.part(walls) * self.above
+    }
+
+    /// Share of the film on the walls that is missing below it, where the film begins anew: films grow with the cube root of the distance.
+    pub fn bare<R: Real>(&self, walls: R) -> R {
+        let film = |part: f64| part * part.cbrt();
+        self.part(walls) * (1.0 - film(self.above) - film(1.0 - self.above))
     }
 }
 
 impl Pocket {
-    /// Oil that flows into it, by its number. \[m3/s\]
-    pub(crate) fn inflow<R: Points>(&self, number: usize, work: &Work<R>) -> R {
+    /// Oil that flows into it but for what gears lift. \[m3/s\]
+    pub(crate) fn fed<R: Points>(&self, work: &Work<R>) -> R {
         let fed = self.feeds.iter();
         let fed = fed.map(|(element, shared)| work.supplies[*element].flow / *shared);
-        let fed = fed.fold(R::constant(self.inflow), |sum, flow| sum + flow.max(R::ZERO));
+        fed.fold(R::constant(self.inflow), |sum, flow| sum + flow.max(R::ZERO))
+    }
+
+    /// Oil that flows into it, by its number. \[m3/s\]
+    pub(crate) fn inflow<R: Points>(&self, number: usize, work: &Work<R>) -> R {
+        let fed = self.fed(work);
         let fed = match self.rib {
             Some(rib) => fed + work.wetting * rib.share(work.walls),
             None => fed,
@@ -154,7 +204,7 @@ impl Hydraulics {
     /// Fills the pockets with what gears throw on walls of a horizontal length, and with what each window takes. \[m3/s, m, m3/s\]
     pub(crate) fn catch<R: Points>(
         &self,
-        (wetting, walls): (R, f64),
+        (wetting, walls): (R, R),
         thrown: impl Fn(&Window) -> R,
         at: &Inputs<'_, R>,
         work: &mut Work<R>,
@@ -173,9 +223,15 @@ impl Hydraulics {
             let flow = self.through(number, work);
             let fluid = self.aerated(&at.oils[chamber.oil as usize]);
             let head = chamber.drain.pressure(flow, fluid.eta, fluid.rho) / (fluid.rho * GRAVITY);
-            held += head * chamber.floor;
+            held += chamber.volume(flow, head, self.up(at));
         }
         held
+    }
+
+    /// The upward direction in the housing.
+    fn up<R: Points>(&self, at: &Inputs<'_, R>) -> [R; 3] {
+        let up = |point: usize| at.incline.and_then(|incline| incline.up(point)).unwrap_or(self.up);
+        [0, 1, 2].map(|i| R::each(|point| up(point)[i]))
     }
 
     /// Flow through a chamber: into it, and into those that drain into it. \[m3/s\]
@@ -196,8 +252,8 @@ impl Hydraulics {
         }
     }
 
-    /// Oil height over the holes of each chamber and the flow through it. \[m and m3/s\]
-    pub(crate) fn chambers(&self, work: &Work<f64>, at: &Inputs<'_, f64>) -> Vec<[f64; 2]> {
+    /// Oil height over the holes of each chamber, the flow through it, and the oil in it. \[m, m3/s and m3\]
+    pub(crate) fn chambers(&self, work: &Work<f64>, at: &Inputs<'_, f64>) -> Vec<[f64; 3]> {
         let mut flows = vec![0.0; self.chambers.len()];
         for (element, supply) in self.elements.iter().zip(&work.supplies) {
             if let Some(chamber) = element.chamber {
@@ -212,7 +268,7 @@ impl Hydraulics {
             }
             let fluid = self.aerated(&at.oils[chamber.oil as usize]);
             let head = chamber.drain.pressure(flow, fluid.eta, fluid.rho) / (fluid.rho * GRAVITY);
-            levels.push([head, flow]);
+            levels.push([head, flow, chamber.volume(flow, head, self.up(at))]);
         }
         levels
     }
@@ -239,6 +295,7 @@ mod tests {
             inflow: 0.0,
             rib: None,
             window: None,
+            room: None,
             oil: 0,
         };
         for (nu, heights) in [

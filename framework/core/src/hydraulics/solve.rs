@@ -36,7 +36,7 @@ pub(crate) struct Work<R> {
     pub pockets: Vec<R>,
     /// Oil that gears throw on the walls, for ribs that catch it, and the horizontal length of the walls. \[m3/s and m\]
     pub wetting: R,
-    pub walls: f64,
+    pub walls: R,
     /// Oil that gears throw into each pocket through its window. \[m3/s\]
     pub thrown: Vec<R>,
     /// Newton steps of the point that needed most.
@@ -64,7 +64,7 @@ impl<R: Points> Work<R> {
             supplies: vec![Supply::default(); elements],
             pockets: vec![R::ZERO; network.pockets.len()],
             wetting: R::ZERO,
-            walls: 1.0,
+            walls: R::constant(1.0),
             thrown: vec![R::ZERO; network.pockets.len()],
             steps: 0,
             trial: vec![R::ZERO; nodes],
@@ -93,7 +93,7 @@ impl Work<Lane> {
         for (own, common) in self.pockets.iter_mut().zip(&common.pockets) {
             *own = Lane::constant(*common);
         }
-        (self.wetting, self.walls) = (Lane::constant(common.wetting), common.walls);
+        (self.wetting, self.walls) = (Lane::constant(common.wetting), Lane::constant(common.walls));
         for (own, common) in self.thrown.iter_mut().zip(&common.thrown) {
             *own = Lane::constant(*common);
         }
@@ -374,6 +374,7 @@ mod tests {
             speeds: &speeds,
             oils: &oils,
             surface: 0.0,
+            incline: None,
         };
         network.solve_from_pressures(&at, &mut work);
         work
@@ -443,6 +444,7 @@ mod tests {
             speeds: &speeds,
             oils: &oils,
             surface: 0.0,
+            incline: None,
         };
         let fluid = network.fluid(&network.elements[0], &at);
         close(network.gain(&network.elements[0], &fluid, &at), 49150.6, 6);
@@ -493,6 +495,7 @@ mod tests {
                 speeds: &speeds,
                 oils: &oils,
                 surface: Lane::ZERO,
+                incline: None,
             },
             &mut lanes,
         );
@@ -504,6 +507,7 @@ mod tests {
                     speeds: &speeds,
                     oils: &oils,
                     surface: 0.0,
+                    incline: None,
                 },
                 &mut work,
             );
@@ -524,6 +528,7 @@ mod tests {
                 speeds: &speeds,
                 oils: &oils,
                 surface: Dual::ZERO,
+                incline: None,
             },
             &mut duals,
         );
@@ -608,7 +613,7 @@ mod tests {
         #[test]
         fn random_networks_balance_from_any_start((network, start, nu) in random()) {
             let oils = [oil(nu, 850.0)];
-            let at = Inputs { speeds: &[], oils: &oils, surface: 0.0 };
+            let at = Inputs { speeds: &[], oils: &oils, surface: 0.0, incline: None };
             let mut work = Work::new(&network);
             network.solve(&at, &mut work);
             prop_assert!(imbalance(&network, &work) <= 1e-12, "{}", imbalance(&network, &work));
@@ -628,7 +633,7 @@ mod tests {
         #[test]
         fn more_speed_gives_no_consumer_less((network, _, nu) in random(), factor in 1.0..3.0) {
             let oils = [oil(nu, 850.0)];
-            let at = Inputs { speeds: &[], oils: &oils, surface: 0.0 };
+            let at = Inputs { speeds: &[], oils: &oils, surface: 0.0, incline: None };
             let flows = |network: &Hydraulics| {
                 let mut work = Work::new(network);
                 network.solve(&at, &mut work);

@@ -15,7 +15,7 @@ const HIGHEST: f64 = 80.0 * std::f64::consts::PI / 180.0;
 /// Widening of the sheet to each side, the tangent of 15 degrees: a convention.
 const WIDENING: f64 = 0.267_949_192_431_122_7;
 
-/// Steps of halving to an angle, before the last one over numbers with derivatives.
+/// Most steps to an edge, before the last one over numbers with derivatives: a handful of Newton's, or those of halving.
 const STEPS: usize = 50;
 
 /// A window in a wall across the shafts' direction.
@@ -57,19 +57,39 @@ impl Window {
             if speed == 0.0 || dip <= 0.0 || start >= HIGHEST || wall <= radius {
                 return [0.0; 3];
             }
-            let angle = |edge: f64| {
-                let (mut low, mut high) = (start, end.min(HIGHEST));
+            let rim = speed.abs() * radius;
+            // The tangent of the angle at which oil leaves that meets an edge; an end of the range if none does.
+            let tangent = |edge: f64| {
+                let (mut low, mut high) = (start.tan(), end.min(HIGHEST).tan());
+                if height(radius, wall, rim, low) >= edge {
+                    return low;
+                }
+                if height(radius, wall, rim, high) <= edge {
+                    return high;
+                }
+                let mut at = 0.5 * (low + high);
                 for _ in 0..STEPS {
-                    let middle = 0.5 * (low + high);
-                    if height(radius, wall, speed.abs() * radius, middle.tan()) < edge {
-                        low = middle;
+                    let excess = height(radius, wall, rim, at) - edge;
+                    if excess < 0.0 {
+                        low = at;
                     } else {
-                        high = middle;
+                        high = at;
+                    }
+                    let newton = at - excess / slope(radius, wall, rim, at);
+                    let next = if newton > low && newton < high {
+                        newton
+                    } else {
+                        0.5 * (low + high)
+                    };
+                    let close = (next - at).abs() <= 1e-15 * next;
+                    at = next;
+                    if close {
+                        break;
                     }
                 }
-                0.5 * (low + high)
+                at
             };
-            let [from, to] = self.edges.map(angle);
+            let [from, to] = self.edges.map(tangent);
             [1.0, from, to]
         };
         let [hits, from, to] = [0, 1, 2].map(|i| R::each(|point| alone(point)[i]));
@@ -79,11 +99,9 @@ impl Window {
         let arc = (2.0 * tooth / radius).sqrt();
         let end = (start + arc).at_most(HIGHEST);
         // One step of Newton's from each root gives derivatives, where numbers have them; an edge that no oil meets has none.
-        let refined = |angle: R, edge: f64| {
-            let u = R::each(|point| angle.at_point(point).tan());
-            let at = |u: R| height(R::constant(radius), wall, rim, u);
-            let slope = (at(u + 1e-5) - at(u - 1e-5)) * 0.5e5;
-            let next = u - (at(u) - edge) / slope;
+        let refined = |u: R, edge: f64| {
+            let next =
+                u - (height(R::constant(radius), wall, rim, u) - edge) / slope(R::constant(radius), wall, rim, u);
             let near = (next - u).abs().is_below(R::constant(1e-6));
             R::select(near, next, u).lift(f64::atan)
         };
@@ -109,6 +127,14 @@ fn height<R: Real>(radius: R, wall: R, rim: R, tangent: R) -> R {
     let s = (tangent * tangent + 1.0).sqrt();
     let fall = (wall * s - radius * tangent) / rim;
     -radius / s + tangent * (wall - radius * tangent / s) - fall * fall * (0.5 * GRAVITY)
+}
+
+/// Its slope over the tangent. \[m\]
+fn slope<R: Real>(radius: R, wall: R, rim: R, tangent: R) -> R {
+    let s = (tangent * tangent + 1.0).sqrt();
+    let sine = tangent / s;
+    let fall = (wall * s - radius * tangent) / (rim * rim);
+    wall - radius * sine - fall * (wall * sine - radius) * GRAVITY
 }
 
 #[cfg(test)]

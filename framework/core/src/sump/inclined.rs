@@ -4,7 +4,7 @@
 //! interpolated, so that level and volume remain inverse of each other and no oil is lost.
 
 use super::outline::Outline;
-use super::{Disc, Space};
+use super::{Disc, Space, Walls};
 
 /// Step of the inclinations at which the space is exact. \[deg\]
 const STEP: f64 = 0.5;
@@ -52,7 +52,7 @@ impl Travel {
         std::array::from_fn(|i| cosine * self.up[i] + sine * self.ahead[i])
     }
 
-    /// The upward directions at the inclinations whose spaces are exact.
+    /// The upward directions at the inclinations whose spaces are exact, from the steepest descent to the steepest climb.
     pub fn ups(&self) -> impl Iterator<Item = [f64; 3]> {
         let degrees = (0..=2 * STEPS).map(|step| (step as f64 - STEPS as f64) * STEP);
         degrees.map(|degrees| self.up(degrees.to_radians()))
@@ -88,17 +88,20 @@ impl Inclinations {
         &self.travel
     }
 
+    /// The upward directions of [`Travel::ups`] with their spaces.
+    pub fn exact(&self) -> impl Iterator<Item = ([f64; 3], &Space)> {
+        self.spaces.iter().map(|(up, space)| (*up, space))
+    }
+
     /// The space at an inclination. \[rad\]
     #[inline]
     pub fn space(&self, inclination: f64) -> AnySpace<'_> {
-        let place = (inclination.to_degrees() / STEP + STEPS as f64).clamp(0.0, 2.0 * STEPS as f64);
-        // Directions of whole steps are exact, whatever the rounding of the angle.
-        if (place - place.round()).abs() < 1e-9 {
-            let (_, space) = &self.spaces[place.round() as usize];
+        let (before, share) = step(inclination);
+        if share == 0.0 {
+            let (_, space) = &self.spaces[before];
             return space.into();
         }
         let up = self.travel.up(inclination);
-        let before = place as usize;
         let [x, y] = self.middle;
         let near = |i: usize| {
             let (own, space) = &self.spaces[i];
@@ -111,9 +114,42 @@ impl Inclinations {
         };
         AnySpace {
             near: near(before),
-            far: Some((near(before + 1), place - before as f64)),
+            far: Some((near(before + 1), share)),
         }
     }
+}
+
+/// The walls above the level at rest at all inclinations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InclinedWalls(
+    /// At each of [`Travel::ups`].
+    pub Vec<Walls>,
+);
+
+impl InclinedWalls {
+    /// The walls at an inclination, linear between those of [`Travel::ups`]. \[rad\]
+    pub fn at(&self, inclination: f64) -> Walls {
+        let (before, share) = step(inclination);
+        let near = self.0[before];
+        let Some(far) = self.0.get(before + 1).filter(|_| share > 0.0) else {
+            return near;
+        };
+        Walls {
+            area: near.area + share * (far.area - near.area),
+            length: near.length + share * (far.length - near.length),
+            flight: near.flight + share * (far.flight - near.flight),
+        }
+    }
+}
+
+/// Number of the step before an inclination (rad), and the share of the way to the next one. Whole steps are exact, whatever the rounding
+/// of the angle.
+fn step(inclination: f64) -> (usize, f64) {
+    let place = (inclination.to_degrees() / STEP + STEPS as f64).clamp(0.0, 2.0 * STEPS as f64);
+    if (place - place.round()).abs() < 1e-9 {
+        return (place.round() as usize, 0.0);
+    }
+    (place as usize, place - place.floor())
 }
 
 /// A space with its levels over those of another inclination: both surfaces meet in the middle of the sections.

@@ -2,18 +2,16 @@
 //!
 //! No open formula for this level was found. Two estimates bracket it, derived here from textbook parts:
 //! - *film*: a gear cannot lift more oil than its churning power accelerates to the speed of its rim: Q = c P/(rho v^2), c at most 2 by
-//!   energy, 1 by momentum, and not more than full tooth spaces carry, v b (R_a^2 - R_f^2)/(4 R_a). The oil runs down the walls as a film
-//!   (laminar (3 nu G/g)^(1/3); turbulent 0.302 (3 nu^2/g)^(1/3) Re^(8/15) after Brauer, quoted from memory), of which a wall that is
-//!   sprayed evenly holds 3/4, and flies for half the inside height. Below 1.5 m/s nothing is thrown off, above 3 m/s (Changenet and
-//!   Velex 2008) all of it; the step between is a convention. A gear that has emptied its pool lifts less, also by convention.
+//!   energy, 1 by momentum, and not more than full tooth spaces carry, v b (R_a^2 - R_f^2)/(4 R_a). The oil flies for half the inside height
+//!   and runs down the walls as a film, of which a wall that is sprayed evenly holds 3/4. Below 1.5 m/s nothing is thrown off, above 3 m/s
+//!   (Changenet and Velex 2008) all of it; the step between is a convention. A gear that has emptied its pool lifts less, also by
+//!   convention. Windows and ribs keep oil off the walls, and pockets hold some of it.
 //! - *effective depth*: h_eff/h_0 of Shore and others, from the torque on one gear in a tight case up to 90 m/s.
 
 use super::AnySpace;
+use super::films::{drawn, film, left_on_flank};
 use crate::immersion::Height;
 use crate::real::{LANES, Points, Real};
-
-/// Gravity. \[m/s2\]
-const G: f64 = 9.80665;
 
 /// Gravity as Shore rounds it. \[m/s2\]
 const SHORE_G: f64 = 9.8;
@@ -37,6 +35,8 @@ pub struct Lift {
     pub radii: [f64; 3],
     /// Face width, of all copies. \[m\]
     pub width: f64,
+    /// Number of teeth.
+    pub teeth: f64,
 }
 
 impl Lift {
@@ -115,37 +115,84 @@ impl<R: Points> Lifted<R> {
         Real::min(self.flow * capture, self.most)
     }
 
-    fn at_point(&self, point: usize) -> Lifted {
+    /// The same in other numbers.
+    fn map<T>(self, of: impl Fn(R) -> T) -> Lifted<T> {
         Lifted {
-            flow: self.flow.at_point(point),
-            most: self.most.at_point(point),
-            rim: self.rim.at_point(point),
-            omega: self.omega.at_point(point),
-            axis: self.axis.map(|own| own.at_point(point)),
+            flow: of(self.flow),
+            most: of(self.most),
+            rim: of(self.rim),
+            omega: of(self.omega),
+            axis: self.axis.map(&of),
         }
     }
 }
 
 /// Where oil is that does not stand in the sump.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Walls {
+pub struct Walls<R = f64> {
     /// Inside wall above the sump on which oil runs down. \[m2\]
-    pub area: f64,
+    pub area: R,
     /// Horizontal length of that wall. \[m\]
-    pub length: f64,
+    pub length: R,
     /// Mean path of flight from the rim to the wall. \[m\]
-    pub flight: f64,
+    pub flight: R,
 }
 
-/// Thickness of a film that runs down a wall: flow per length (m2/s) and viscosity (m2/s). \[m\]
-#[inline]
-pub fn film<R: Real>(flow: R, nu: R) -> R {
-    // Of smaller flows the cube root is not defined, and the film has no volume.
-    let flow = flow.at_least(1e-200);
-    let laminar = (flow * nu * (3.0 / G)).cbrt();
-    let turbulent = (nu * nu * (3.0 / G)).cbrt() * (flow / nu).power(8.0 / 15.0) * 0.302;
-    // They meet near Re = 400.
-    Real::max(laminar, turbulent)
+impl<R> Walls<R> {
+    /// The same in other numbers.
+    pub fn map<T>(self, of: impl Fn(R) -> T) -> Walls<T> {
+        Walls {
+            area: of(self.area),
+            length: of(self.length),
+            flight: of(self.flight),
+        }
+    }
+}
+
+/// What catches thrown oil before it runs down the walls.
+pub trait Catchers<R> {
+    /// What they take of a flow (m3/s) that gears throw at walls of a horizontal length (m). `of` takes the numbers of one point, or of all;
+    /// `gear` gives the immersion depth of the tip circle of a gear, by its number among those that lift oil (m), and what it throws (m3/s).
+    fn caught<T: Points>(
+        &self,
+        of: impl Fn(R) -> T + Copy,
+        gear: impl Fn(usize) -> [T; 2] + Copy,
+        flow: T,
+        length: T,
+    ) -> Caught<T>;
+}
+
+/// Oil that does not run down the walls.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Caught<T> {
+    /// What flies through windows. \[m3/s\]
+    pub through: T,
+    /// Share of the film that ribs keep off the walls. \[-\]
+    pub bare: T,
+    /// Oil that stands in pockets. \[m3\]
+    pub held: T,
+}
+
+/// Oil that is not in the sump, and the flow that brings it where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outside<T> {
+    /// What the gears lift. \[m3/s\]
+    pub flow: T,
+    /// What reaches the walls. \[m3/s\]
+    pub wetting: T,
+    /// Oil on the walls. \[m3\]
+    pub on_walls: T,
+    /// Oil in the air. \[m3\]
+    pub in_air: T,
+    /// Oil in pockets. \[m3\]
+    pub in_pockets: T,
+}
+
+impl<T: Real> Outside<T> {
+    /// What is missing from the sump. \[m3\]
+    pub fn missing(&self) -> T {
+        self.on_walls + self.in_air + self.in_pockets
+    }
 }
 
 /// Effective over static depth after Shore: filled share of the case, speed (rad/s), reference radius (m), viscosity (m2/s). \[-\]
@@ -192,13 +239,13 @@ impl<R: Real> Band<R> {
 }
 
 /// A sump whose gears lift oil, at one point.
-pub struct Running<'a, R, S> {
+pub struct Running<'a, R, S, C> {
     /// The oil space at each point.
     pub space: S,
     /// Volume of the space without the solids in it. \[m3\]
     pub inside: f64,
-    /// Its walls.
-    pub walls: &'a Walls,
+    /// Its walls at each point.
+    pub walls: Walls<R>,
     /// The gears in it.
     pub lifts: &'a [Lift],
     /// What each gear lifts.
@@ -209,6 +256,10 @@ pub struct Running<'a, R, S> {
     pub stock: R,
     /// Viscosity of the oil on the walls. \[m2/s\]
     pub nu: R,
+    /// What catches oil before it reaches the walls.
+    pub catchers: C,
+    /// Points whose bit is not set are equal to the one before.
+    pub starts: u32,
 }
 
 /// Steps of the search of a level, which halves its bracket in every fourth.
@@ -223,43 +274,58 @@ const ENOUGH: f64 = 1e-14;
 /// Half the step of the differences for the slope of the balance. \[m\]
 const STEP: f64 = 1e-6;
 
-impl<'s, R: Points, S: Fn(usize) -> AnySpace<'s>> Running<'_, R, S> {
-    /// Oil that is missing from the sump at a level, and the lifted flow, with a factor c. \[m3 and m3/s\]
+impl<'s, R: Points, S: Fn(usize) -> AnySpace<'s>, C: Catchers<R>> Running<'_, R, S, C> {
+    /// Oil that is missing from the sump at a level (m), with a factor c. `of` takes the numbers of one point, or of all.
     #[inline]
-    pub fn missing<T: Points>(&self, lifted: impl Fn(usize) -> Lifted<T>, level: T, nu: T, capture: f64) -> [T; 2] {
+    pub fn outside<T: Points>(&self, of: impl Fn(R) -> T + Copy, level: T, capture: f64) -> Outside<T> {
+        let walls = self.walls.map(of);
         let (mut flow, mut air) = (T::ZERO, T::ZERO);
-        for (i, lift) in self.lifts.iter().enumerate() {
-            let gear = lifted(i);
+        for (lift, lifted) in self.lifts.iter().zip(self.lifted) {
+            let gear = lifted.map(of);
             let own = lift.thrown(&gear, level, capture);
             flow += own;
-            air += own * self.walls.flight / gear.rim;
+            air += own * walls.flight / gear.rim;
         }
-        let wall = film(flow / self.walls.length, nu) * (0.75 * self.walls.area);
-        [T::select(flow.is_zero(), T::ZERO, wall + air), flow]
+        let thrown = |i: usize| {
+            let (lift, gear) = (&self.lifts[i], self.lifted[i].map(of));
+            [lift.tip_dip_at(level, gear.axis), lift.thrown(&gear, level, capture)]
+        };
+        let caught = self.catchers.caught(of, thrown, flow, walls.length);
+        let wetting = (flow - caught.through).at_least(0.0);
+        let wall = film(wetting / walls.length, of(self.nu)) * (walls.area * 0.75) * (T::constant(1.0) - caught.bare);
+        let still = flow.is_zero();
+        Outside {
+            flow,
+            wetting,
+            on_walls: T::select(still, T::ZERO, wall),
+            in_air: air,
+            in_pockets: caught.held,
+        }
     }
 
     /// The level by the balance of films, with a factor c. \[m\]
     pub fn film_level(&self, capture: f64) -> R {
-        let found: [[f64; 3]; LANES] = std::array::from_fn(|point| {
-            if point < R::COUNT {
-                self.root(point, capture)
+        let mut found = [[0.0; 3]; LANES];
+        for point in 0..R::COUNT {
+            found[point] = if point > 0 && self.starts >> point & 1 == 0 {
+                found[point - 1]
             } else {
-                [0.0; 3]
-            }
-        });
+                self.root(point, capture)
+            };
+        }
         let [level, below, slope] = [0, 1, 2].map(|i| R::each(|point| found[point][i]));
         // One step of Newton's gives derivatives, where numbers have them; its length is within the bracket.
-        let [missing, flow] = self.missing(|i| self.lifted[i], level, self.nu, capture);
+        let missing = self.outside(|x| x, level, capture).missing();
         let step = (below + missing - self.stock) / slope;
         let excess = R::each(|point| step.at_point(point) - step.at_point(point).clamp(-CLOSE, CLOSE));
         let next = level - (step - excess);
-        R::select(flow.is_zero(), self.rest, Real::min(next, self.rest))
+        R::select(missing.is_zero(), self.rest, Real::min(next, self.rest))
     }
 
     /// Level, volume below it and slope of the balance at one point. \[m, m3, m2\]
     fn root(&self, point: usize, capture: f64) -> [f64; 3] {
-        let (stock, nu) = (self.stock.at_point(point), self.nu.at_point(point));
-        let missing = |level: f64| self.missing(|i| self.lifted[i].at_point(point), level, nu, capture)[0];
+        let stock = self.stock.at_point(point);
+        let missing = |level: f64| self.outside(|x: R| x.at_point(point), level, capture).missing();
         let space = (self.space)(point);
         let excess = |level: f64| space.volume(level)[0] + missing(level) - stock;
         let rest = self.rest.at_point(point);
@@ -325,6 +391,24 @@ impl<'s, R: Points, S: Fn(usize) -> AnySpace<'s>> Running<'_, R, S> {
                 fastest,
             )
         })
+    }
+
+    /// Oil on the flanks of the gears that dip into the oil at rest, half a turn after they left it, at one point. It is too little to lower a
+    /// level, so the balance does not have it. \[m3\]
+    pub fn on_gears(&self, point: usize) -> f64 {
+        let (nu, rest) = (self.nu.at_point(point), self.rest.at_point(point));
+        let of = |(lift, lifted): (&Lift, &Lifted<R>)| {
+            let gear = lifted.map(|x| x.at_point(point));
+            let [tip, _, root] = lift.radii;
+            let (dip, rim) = (lift.tip_dip_at(rest, gear.axis), gear.omega * tip);
+            if dip <= 0.0 || rim <= 0.0 {
+                return 0.0;
+            }
+            let wetted = 2.0 * tip * (1.0 - dip / tip).clamp(-1.0, 1.0).acos();
+            let film = drawn(nu, rim, wetted).min(left_on_flank(nu, tip - root, rim));
+            film * 2.0 * lift.teeth * (tip - root) * lift.width
+        };
+        self.lifts.iter().zip(self.lifted).map(of).sum()
     }
 
     /// All estimates.

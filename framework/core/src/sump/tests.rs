@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use super::*;
-use crate::real::{Dual, LANES, Lane, Points as _, Real as _};
+use crate::real::{Dual, LANES, Lane, Points, Real as _};
 use proptest::prelude::*;
 
 const MM: f64 = 1e-3;
@@ -43,6 +43,25 @@ fn space(discs: &[Disc], up: [f64; 3]) -> Space {
     };
     let discs = discs.iter().map(inclined).collect();
     Space::new(&[case_a()], discs, up, 0.0).unwrap()
+}
+
+/// A sump without pockets.
+struct Nothing;
+
+impl<R> Catchers<R> for Nothing {
+    fn caught<T: Points>(
+        &self,
+        _: impl Fn(R) -> T + Copy,
+        _: impl Fn(usize) -> [T; 2] + Copy,
+        _: T,
+        _: T,
+    ) -> Caught<T> {
+        Caught {
+            through: T::ZERO,
+            bare: T::ZERO,
+            held: T::ZERO,
+        }
+    }
 }
 
 /// Equal to the printed digits of the second number.
@@ -87,6 +106,13 @@ fn levels_of_a_volume() {
     }
     let without = space(&[], UP).level(1.2 * LITRE);
     printed(without / MM, "44.1518");
+    // Steps of Newton's from 20 mm.
+    let mut level = 20.0 * MM;
+    for digits in ["45.7142857", "46.4339315", "46.4331293"] {
+        let [volume, area] = with.volume(level);
+        level -= (volume - 1.2 * LITRE) / area;
+        printed(level / MM, digits);
+    }
 }
 
 #[test]
@@ -254,6 +280,19 @@ fn films() {
 }
 
 #[test]
+fn films_that_are_left_and_drawn() {
+    // A flank of 5.6 mm half a turn after it left the oil at 10 m/s.
+    printed(left_on_flank(1e-5, 5.6 * MM, 10.0) / 1e-6, "28.1467");
+    // Slow surfaces carry what viscosity lifts, fast ones what they drag along 100 mm.
+    printed(drawn(1e-5, 0.1, 0.1) / MM, "0.21289");
+    printed(drawn(1e-5, 10.0, 0.1) / MM, "0.51102");
+    printed(drawn(1e-5, 10.0, 1e9) / MM, "2.1289");
+    // Walls of 0.16 m2 and 0.2 m height after a stop.
+    printed(0.16 * left_on_wall(1e-5, 0.2, 10.0) / LITRE, "0.015233");
+    printed(0.16 * left_on_wall(1e-4, 0.2, 60.0) / LITRE, "0.019666");
+}
+
+#[test]
 fn effective_depths_of_shore() {
     for (nu, expected) in [
         (1e-5, "0.9999 0.9862 0.7796 0.5286 0.4169"),
@@ -272,6 +311,7 @@ fn lift() -> Lift {
         orbit: 0.0,
         radii: [90.0 * MM, 87.5 * MM, (0.09_f64 * 0.09 - 4.0 * 0.09 * 0.002).sqrt()],
         width: GEAR.width,
+        teeth: 35.0,
     }
 }
 
@@ -288,18 +328,19 @@ fn estimates(v: f64, power: f64, nu: f64, stock: f64) -> (Band, f64, f64) {
     let running = Running {
         space: |_| AnySpace::from(&space),
         inside: space.inside(),
-        walls: &WALLS,
+        walls: WALLS,
         lifts: &lifts,
         lifted: &lifted,
         rest: space.level(stock),
         stock,
         nu,
+        catchers: Nothing,
+        starts: !0,
     };
     let band = running.band();
-    let [missing, flow] = running.missing(|_| lifted[0], band.films[1], nu, 1.0);
-    let air = flow * WALLS.flight / v;
+    let outside = running.outside(|x| x, band.films[1], 1.0);
     // Mass is conserved; where the film grows without bound from a pool that is nearly empty, within the digits of the level.
-    let excess = |level: f64| space.volume(level)[0] + running.missing(|_| lifted[0], level, nu, 1.0)[0] - stock;
+    let excess = |level: f64| space.volume(level)[0] + running.outside(|x| x, level, 1.0).missing() - stock;
     let level = band.films[1];
     let closes = excess(level).abs() < 1e-12 * stock;
     assert!(
@@ -307,7 +348,7 @@ fn estimates(v: f64, power: f64, nu: f64, stock: f64) -> (Band, f64, f64) {
         "{}",
         excess(level)
     );
-    (band, flow, missing - air)
+    (band, outside.flow, outside.on_walls)
 }
 
 #[test]
@@ -439,12 +480,12 @@ proptest! {
         let lifts = [lift()];
         let rest = space.level(stock);
         let lifted = [lift().lifted(Lane::each(|i| point(i).0), Lane::each(|i| point(i).1 / 0.09), Lane::constant(830.0))];
-        let together = Running { space: |_| AnySpace::from(&space), inside: space.inside(), walls: &WALLS, lifts: &lifts, lifted: &lifted, rest: Lane::constant(rest), stock: Lane::constant(stock), nu: Lane::each(|i| point(i).2) };
+        let together = Running { space: |_| AnySpace::from(&space), inside: space.inside(), walls: WALLS.map(Lane::constant), lifts: &lifts, lifted: &lifted, rest: Lane::constant(rest), stock: Lane::constant(stock), nu: Lane::each(|i| point(i).2), catchers: Nothing, starts: !0 };
         let found = together.band();
         for lane in 0..LANES {
             let (power, v, nu) = point(lane);
             let lifted = [lift().lifted(power, v / 0.09, 830.0)];
-            let alone = Running { space: |_| AnySpace::from(&space), inside: space.inside(), walls: &WALLS, lifts: &lifts, lifted: &lifted, rest, stock, nu }.band();
+            let alone = Running { space: |_| AnySpace::from(&space), inside: space.inside(), walls: WALLS, lifts: &lifts, lifted: &lifted, rest, stock, nu, catchers: Nothing, starts: !0 }.band();
             for (all, one) in found.films.iter().chain([&found.effective]).zip(alone.films.iter().chain([&alone.effective])) {
                 prop_assert_eq!(all[lane].to_bits(), one.to_bits());
             }
@@ -470,12 +511,14 @@ fn a_huge_sump_does_not_fall() {
     let running = Running {
         space: |_| AnySpace::from(&lake),
         inside: lake.inside(),
-        walls: &WALLS,
+        walls: WALLS,
         lifts: &lifts,
         lifted: &lifted,
         rest,
         stock,
         nu: 1e-5,
+        catchers: Nothing,
+        starts: !0,
     };
     let fall = rest - running.film_level(1.0);
     assert!((0.0..1e-7).contains(&fall), "{fall}");
@@ -491,12 +534,14 @@ fn derivatives_of_the_level_are_those_of_differences() {
         Running {
             space: |_| AnySpace::from(&space),
             inside: space.inside(),
-            walls: &WALLS,
+            walls: WALLS,
             lifts: &lifts,
             lifted: &lifted,
             rest,
             stock: 1.2 * LITRE,
             nu,
+            catchers: Nothing,
+            starts: !0,
         }
         .film_level(1.0)
     };
@@ -504,12 +549,14 @@ fn derivatives_of_the_level_are_those_of_differences() {
     let dual = Running {
         space: |_| AnySpace::from(&space),
         inside: space.inside(),
-        walls: &WALLS,
+        walls: WALLS.map(Dual::constant),
         lifts: &lifts,
         lifted: &lifted,
         rest: Dual::constant(rest),
         stock: Dual::constant(1.2 * LITRE),
         nu: Dual::variable(1e-5, 1),
+        catchers: Nothing,
+        starts: !0,
     };
     let found = dual.film_level(1.0);
     assert_eq!(found.value.to_bits(), level(40.0, 1e-5).to_bits());

@@ -7,7 +7,7 @@ use crate::codes;
 use crate::description::{GearboxEntry, InsideEntry, InsideSection};
 use crate::document::Diagnostic;
 use crate::registry::Memory;
-use crate::sump::{CHORDS, Crowded, Disc, Inclinations, Outline, Space, Travel, Walls, hull};
+use crate::sump::{CHORDS, Crowded, Disc, Inclinations, InclinedWalls, Outline, Space, Travel, Walls, hull};
 use serde_json::Value;
 use std::sync::Arc;
 
@@ -30,6 +30,10 @@ pub(crate) struct Inside {
     walls: [Option<f64>; 2],
     /// The upward direction, and the height of the datum along it. \[m\]
     pub up: ([f64; 3], f64),
+    /// Where heights count from. \[m\]
+    datum: [f64; 3],
+    /// x and y of the middle of the sections, from the datum. \[m\]
+    pub middle: [f64; 2],
 }
 
 /// The axis of each member with the radius of its orbit.
@@ -63,13 +67,7 @@ impl Inside {
         } else {
             vec![of_gears(entry, &stated, gears, axes, memory)?]
         };
-        let height_of = |up: [f64; 3]| {
-            if datum[0] == 0.0 {
-                up[1] * datum[1] + up[2] * datum[2]
-            } else {
-                up[0] * datum[0] + up[1] * datum[1] + up[2] * datum[2]
-            }
-        };
+        let height_of = |up: [f64; 3]| height_along(up, datum);
         let height = height_of(up);
         let input = |up: [f64; 3]| Input {
             discs: discs((entry, document), members, gears, axes, &sections, (up, height_of(up))),
@@ -94,6 +92,11 @@ impl Inside {
                 ))
             })
         });
+        let mean = |ends: [f64; 2], origin: f64| f64::midpoint(ends[0], ends[1]) - origin;
+        let middle = [
+            mean(widest(sections.iter().map(|section| section.range)), datum[0]),
+            mean(widest(sections.iter().map(Outline::extent)), datum[1]),
+        ];
         let travel = entry
             .housing
             .travel
@@ -107,11 +110,6 @@ impl Inside {
                     (solids, height)
                 })
                 .collect();
-            let mean = |ends: [f64; 2], origin: f64| f64::midpoint(ends[0], ends[1]) - origin;
-            let middle = [
-                mean(widest(sections.iter().map(|section| section.range)), datum[0]),
-                mean(widest(sections.iter().map(Outline::extent)), datum[1]),
-            ];
             let input = (sections.clone(), travel, at, middle);
             memory.repeat("inclined oil space", input, |(sections, travel, at, middle)| {
                 Arc::new(Inclinations::new(*travel, sections, at, *middle))
@@ -125,6 +123,8 @@ impl Inside {
                 sections,
                 walls: [stated.wall_area, stated.wall_length],
                 up: (up, height),
+                datum,
+                middle,
             }),
             Err(Crowded(level)) => {
                 // No one has stated the hull.
@@ -143,22 +143,40 @@ impl Inside {
 
     /// Walls above a level: those of the sections and their ends, and half the height of the space as the path of flight.
     pub fn walls(&self, level: f64) -> Walls {
+        self.walls_along(self.up.0, &self.space, level)
+    }
+
+    /// The walls above the level that the oil below a level as built has at each inclination, if the housing travels. \[m\]
+    pub fn inclined_walls(&self, level: f64) -> Option<InclinedWalls> {
+        let volume = self.space.volume(level)[0];
+        let spaces = self.inclinations.as_ref()?.exact();
+        Some(InclinedWalls(
+            spaces
+                .map(|(up, space)| self.walls_along(up, space, space.level(volume)))
+                .collect(),
+        ))
+    }
+
+    /// Walls above a level with an upward direction. The horizontal length is twice the extent in both horizontal directions.
+    fn walls_along(&self, up: [f64; 3], space: &Space, level: f64) -> Walls {
         let (mut area, mut length) = (0.0, 0.0_f64);
-        let (up, datum) = self.up;
+        let datum = height_along(up, self.datum);
+        let rise = up[1].hypot(up[2]);
         for section in &self.sections {
             let along = section.length();
             let middle = 0.5 * (section.range[0] + section.range[1]);
             let at = |[y, z]: [f64; 2]| up[0] * middle + up[1] * y + up[2] * z - datum;
             let [rim, end] = section.above(at, level);
-            let [least, greatest] = section.extent();
+            let extent = |a: f64, b: f64| widest(section.corners.iter().map(|[y, z]| [(a * y + b * z) / rise; 2]));
+            let ([bottom, top], [least, greatest]) = (extent(up[1], up[2]), extent(up[2], -up[1]));
             area += rim * along + 2.0 * end;
-            length = length.max(2.0 * (along + greatest - least));
+            length = length.max(2.0 * (rise * along + up[0].abs() * (top - bottom) + greatest - least));
         }
         let [stated, horizontal] = self.walls;
         Walls {
             area: stated.unwrap_or(area),
             length: horizontal.unwrap_or(length),
-            flight: 0.5 * (self.space.top() - self.space.bottom()),
+            flight: 0.5 * (space.top() - space.bottom()),
         }
     }
 
@@ -169,6 +187,15 @@ impl Inside {
         } else {
             "in the hull of the tip circles, an assumed inside of the housing"
         }
+    }
+}
+
+/// Height of a point along the upward direction, from the origin. \[m\]
+fn height_along(up: [f64; 3], point: [f64; 3]) -> f64 {
+    if point[0] == 0.0 {
+        up[1] * point[1] + up[2] * point[2]
+    } else {
+        up[0] * point[0] + up[1] * point[1] + up[2] * point[2]
     }
 }
 

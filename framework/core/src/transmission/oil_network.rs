@@ -4,13 +4,13 @@ use serde_json::Value;
 
 use super::oils::OilNumbers;
 use super::seats::GearSeat;
-use super::{Component, PartInfo};
+use super::{Component, PartInfo, PartKind};
 use crate::attach::{Common, Places as _, SeatedPocket, dangling};
 use crate::codes;
 use crate::description::oil_network::{NozzleEntry, PipeEntry, PumpEntry, RotatingChannelEntry};
 use crate::description::{GearboxEntry, HoleEntry, OilNetworkEntry, PocketEntry, WindowEntry};
 use crate::document::Diagnostic;
-use crate::hydraulics::{Chamber, Channel, Driver, Edge, Element, End, Hydraulics, Law, Pocket, Relief, Window};
+use crate::hydraulics::{Chamber, Channel, Driver, Edge, Element, End, Hydraulics, Law, Pocket, Relief, Room, Window};
 
 const SUMP: &str = "sump";
 const HOUSING: &str = "housing";
@@ -26,6 +26,18 @@ pub(crate) fn element_paths(entry: &GearboxEntry) -> Vec<String> {
     let rotating = network.rotating_channels.ids();
     let rotating = rotating.map(|id| format!("oil_network.rotating_channels.{id}"));
     pumps.chain(pipes).chain(nozzles).chain(rotating).collect()
+}
+
+/// Radius of the lowest point of the raceway of a bearing, by its path. \[m\]
+pub(crate) fn raceway(parts: &[PartInfo], components: &[Component], bearing: &str) -> Option<f64> {
+    let is_of = |part: &&PartInfo| {
+        let rest = part.path.strip_prefix(bearing);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    match parts.iter().find(is_of)?.kind {
+        PartKind::Component(component) => components[component].placed.lowest(),
+        PartKind::Mesh(_) | PartKind::Drag(_) | PartKind::Transfer(_) => None,
+    }
 }
 
 /// What the network needs of the transmission while it is built.
@@ -57,6 +69,7 @@ pub(super) fn hydraulics(
         };
         names.build(oils, &mut built);
         has_ways(&built, found, warnings);
+        warnings.extend(heights_of_a_level_road(around.entry, network));
         shaft_torques(&built, around, found, warnings);
     }
     built.pockets = around
@@ -81,7 +94,12 @@ impl Names<'_, '_> {
         let network = self.network;
         built.air = network.air;
         built.junctions = network.junctions.ids().map(str::to_owned).collect();
-        built.heights = network.junctions.iter().map(|(_, junction)| junction.height).collect();
+        built.up = oils.up();
+        let places = network.junctions.iter().map(|(_, junction)| {
+            let height = junction.height?;
+            Some(oils.place(height, [junction.x, junction.y]))
+        });
+        built.heights = places.collect();
         self.check_names();
         if oils.highest().is_none() {
             let heights = network
@@ -169,6 +187,7 @@ impl Names<'_, '_> {
                 name: id.clone(),
                 drain: chamber.drain.orifice(),
                 floor: chamber.floor,
+                holes: [chamber.drain_x, chamber.drain_y],
                 height: chamber.height,
                 oil: oil.unwrap_or(0),
                 into: into[i].and_then(|into| order.iter().position(|known| *known == into)),
@@ -318,8 +337,9 @@ impl Names<'_, '_> {
         let law = Some(Law::Pipe(channel));
         let ends = [SUMP, HOUSING];
         let element = self.element(path, (&pipe.from, &[SUMP]), (&pipe.to, &ends), law, &pipe.feeds, oils)?;
+        let inlet = pipe.inlet_height;
         Some(Element {
-            inlet: pipe.inlet_height,
+            inlet: inlet.map(|height| oils.place(height, [pipe.inlet_x, pipe.inlet_y])),
             ..element
         })
     }
@@ -361,7 +381,6 @@ impl Names<'_, '_> {
     }
 }
 
-/// A hole with its discharge coefficient, which by default is that of a sharp edge for a short hole, else that of a drilled one.
 /// Checks that oil can leave every junction, and that something drives it.
 fn has_ways(network: &Hydraulics, found: &mut Vec<Diagnostic>, warnings: &mut Vec<Diagnostic>) {
     let count = network.junctions.len();
@@ -419,6 +438,30 @@ fn has_ways(network: &Hydraulics, found: &mut Vec<Diagnostic>, warnings: &mut Ve
     }
 }
 
+/// Heights that stay while the housing is inclined, because their places along and across the shafts are not stated.
+fn heights_of_a_level_road(entry: &GearboxEntry, network: &OilNetworkEntry) -> Option<Diagnostic> {
+    let housing = &entry.housing;
+    let inclined = housing.grade != 0.0 || housing.bank != 0.0 || housing.travel.is_some();
+    let is_open = |height: Option<f64>, place: [Option<f64>; 2]| height.is_some() && place == [None; 2];
+    let junctions = network.junctions.iter();
+    let junctions = junctions.filter(|(_, own)| is_open(own.height, [own.x, own.y]));
+    let pipes = network.pipes.iter();
+    let pipes = pipes.filter(|(_, own)| is_open(own.inlet_height, [own.inlet_x, own.inlet_y]));
+    let names = junctions
+        .map(|(id, _)| format!("junctions.{id}"))
+        .chain(pipes.map(|(id, _)| format!("pipes.{id}")))
+        .collect::<Vec<_>>();
+    (inclined && !names.is_empty()).then(|| {
+        let message = format!(
+            "the housing is inclined, and the heights of {} are taken as they are",
+            names.join(", ")
+        );
+        Diagnostic::warning("oil_network", message)
+            .code(codes::LEVEL_HEIGHT)
+            .help("state `x` and `y` of junctions with a height, and `inlet_x` and `inlet_y` of pipes with `inlet_height`, as in the drawing")
+    })
+}
+
 /// Checks that an auxiliary on the right shaft computes the torque of each driven pump and of each rotating channel, once.
 fn shaft_torques(
     network: &Hydraulics,
@@ -427,7 +470,7 @@ fn shaft_torques(
     warnings: &mut Vec<Diagnostic>,
 ) {
     let paths = |component: usize| {
-        let kind = super::PartKind::Component(component);
+        let kind = PartKind::Component(component);
         around
             .parts
             .iter()
@@ -515,6 +558,7 @@ fn seated_pocket(
         drain,
         rib,
         window,
+        length,
     } = pocket.entry.clone();
     let path = format!("{}.pocket", pocket.path);
     let id = pocket.path.strip_prefix("bearings.").unwrap_or_default();
@@ -582,6 +626,14 @@ fn seated_pocket(
             )),
         );
     }
+    let room = |length: f64| {
+        let outer = raceway(around.parts, around.components, &pocket.path)?;
+        let inner = 0.5 * around.document["bearings"][id]["bore"].as_f64()?;
+        Some(Room {
+            length,
+            radii: [outer, inner],
+        })
+    };
     Some(Pocket {
         path: pocket.path.clone(),
         edge: edge_of,
@@ -591,6 +643,7 @@ fn seated_pocket(
         inflow,
         rib: caught.map(|rib| rib.rib()),
         window,
+        room: length.and_then(room),
         oil: pocket.oil,
     })
 }

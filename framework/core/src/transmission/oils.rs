@@ -12,6 +12,7 @@ use crate::attach::{Common, Level, Oil, Places, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, OilEntry, Running, RunningWord};
 use crate::document::Diagnostic;
+use crate::hydraulics::Place;
 use crate::immersion::upward;
 use crate::lubricant::Lubricant;
 use crate::mechanism::gear_mesh::MeshOil;
@@ -369,6 +370,29 @@ impl<'a> OilNumbers<'a> {
     pub fn stationary_axis_along_x(&self, member: usize) -> Option<Axis> {
         let (axis, orbit) = self.axes[member]?;
         (orbit == 0.0 && axis.is_along_x()).then_some(axis)
+    }
+
+    /// The upward direction of the housing as built.
+    pub fn up(&self) -> [f64; 3] {
+        self.up
+    }
+
+    /// A place with a height in the drawing above the datum and x and y in the housing; one of them that is not stated is that of the middle
+    /// of the oil space. \[m\]
+    pub fn place(&self, height: f64, [x, y]: [Option<f64>; 2]) -> Place {
+        if x.is_none() && y.is_none() {
+            return Place { height, at: None };
+        }
+        let middle = self.inside.as_ref().map_or([0.0; 2], |inside| inside.middle);
+        let at = [
+            x.map_or(middle[0], |x| x - self.datum[0]),
+            y.map_or(middle[1], |y| y - self.datum[1]),
+            height,
+        ];
+        Place {
+            height: self.up[0] * at[0] + self.up[1] * at[1] + self.up[2] * at[2],
+            at: Some(at),
+        }
     }
 
     /// True if an oil level is known.

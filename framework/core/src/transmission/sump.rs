@@ -10,7 +10,9 @@ use crate::hydraulics::{Taken, Window};
 use crate::immersion::Height;
 use crate::loss::{Loss, Undefined};
 use crate::real::{Mask as _, Points};
-use crate::sump::{AnySpace, CAPTURE, Inclinations, Lift, Lifted, Outline, Running, Space, Travel, Walls};
+use crate::sump::{
+    AnySpace, CAPTURE, Catchers, Inclinations, InclinedWalls, Lift, Lifted, Outline, Running, Space, Travel, Walls,
+};
 use crate::transmission::Surface;
 
 /// The sump with the gears that lift oil.
@@ -20,6 +22,8 @@ pub struct Sump {
     /// The spaces of a housing that cycles incline.
     inclinations: Option<Arc<Inclinations>>,
     walls: Walls,
+    /// The walls at the inclinations of a housing that travels.
+    inclined_walls: Option<InclinedWalls>,
     /// True if the inside is drawn; otherwise it is the hull of the gears.
     drawn: bool,
     sections: Vec<Outline>,
@@ -86,6 +90,7 @@ impl Sump {
             space: Arc::clone(&inside.space),
             inclinations: inside.inclinations.clone(),
             walls: inside.walls(rest),
+            inclined_walls: inside.inclined_walls(rest),
             drawn: inside.drawn,
             sections: inside.sections.clone(),
             up: inside.up,
@@ -103,9 +108,25 @@ impl Sump {
         &self.space
     }
 
-    /// Where lifted oil runs down.
+    /// Where lifted oil runs down, as built.
     pub fn walls(&self) -> &Walls {
         &self.walls
+    }
+
+    /// Where lifted oil runs down at an inclination. \[rad\]
+    pub(crate) fn walls_at<R: Points>(&self, inclination: R) -> Walls<R> {
+        let Some(inclined) = self.inclined_walls.as_ref().filter(|_| !inclination.is_zero().all()) else {
+            return self.walls.map(R::constant);
+        };
+        let at = |point: usize| match inclination.at_point(point) {
+            0.0 => self.walls,
+            inclination => inclined.at(inclination),
+        };
+        Walls {
+            area: R::each(|point| at(point).area),
+            length: R::each(|point| at(point).length),
+            flight: R::each(|point| at(point).flight),
+        }
     }
 
     /// True if the inside is drawn; otherwise it is the hull of the gears.
@@ -166,7 +187,7 @@ impl Sump {
     }
 
     /// The space at an inclination; as built without one. \[rad\]
-    fn at(&self, inclination: f64) -> AnySpace<'_> {
+    pub fn at(&self, inclination: f64) -> AnySpace<'_> {
         match &self.inclinations {
             Some(inclinations) if inclination != 0.0 => inclinations.space(inclination),
             _ => (&*self.space).into(),
@@ -233,13 +254,14 @@ impl Sump {
 
     /// The balance of the sump at a point with an inclination (rad); the level at rest determines how much oil there is, of which chambers
     /// hold a part (m3).
-    pub(crate) fn running<'a, R: Points>(
+    pub(crate) fn running<'a, R: Points, C: Catchers<R>>(
         &'a self,
         (rest, inclination): (R, R),
         held: R,
         oils: &[Oil<R>],
         lifted: &'a [Lifted<R>],
-    ) -> Running<'a, R, impl Fn(usize) -> AnySpace<'a>> {
+        (catchers, starts): (C, u32),
+    ) -> Running<'a, R, impl Fn(usize) -> AnySpace<'a>, C> {
         let space = move |point: usize| self.at(inclination.at_point(point));
         let volume = |point: usize| space(point).volume(rest.at_point(point));
         let known = R::each(|point| rest.at_point(point));
@@ -255,12 +277,14 @@ impl Sump {
         Running {
             space,
             inside: self.space.inside(),
-            walls: &self.walls,
+            walls: self.walls_at(inclination),
             lifts: &self.lifts,
             lifted,
             rest: lowered,
             stock: R::select(none, stock, left),
             nu: oils[self.oil].nu,
+            catchers,
+            starts,
         }
     }
 }
@@ -291,6 +315,7 @@ fn lift(gear: &GearSeat, level: Level, count: f64) -> Option<Lift> {
         orbit,
         radii: [tip, reference, root],
         width: gear.facewidth * count,
+        teeth: f64::from(gear.z),
     })
 }
 

@@ -39,6 +39,14 @@ struct EstimateRecord {
     lifted_l_per_min: f64,
     /// Oil on the walls and in the air. [l]
     missing_l: f64,
+    /// Oil in chambers that drain into the sump. [l]
+    in_chambers_l: f64,
+    /// Oil in pockets of bearings whose length is stated. [l]
+    in_pockets_l: f64,
+    /// Oil on the flanks of gears, which no level lacks because it is so little. [l]
+    on_gears_l: f64,
+    /// Level a minute after a stop, when a film is left on the walls. [mm]
+    minute_after_stop_mm: f64,
     /// Oil in the housing. [l]
     volume_l: f64,
     /// True if the oil space is that of the drawing; otherwise it is the hull of the gears, an assumption.
@@ -59,6 +67,10 @@ impl From<OilLevels> for OilLevelRecord {
                 effective_depth_mm: mm(estimate.band.effective),
                 lifted_l_per_min: estimate.lifted * PER_MINUTE,
                 missing_l: mm(estimate.missing),
+                in_chambers_l: mm(estimate.held),
+                in_pockets_l: mm(estimate.in_pockets),
+                on_gears_l: mm(estimate.on_gears),
+                minute_after_stop_mm: mm(estimate.after_minute),
                 volume_l: mm(estimate.volume),
                 drawn: estimate.drawn,
             }),
@@ -96,8 +108,13 @@ pub(super) fn oil_level_text(levels: Option<OilLevels>) -> String {
             figures(estimate.missing * 1e3, 3),
             figures(estimate.volume * 1e3, 3),
         );
-        if estimate.held > 0.0 {
-            text += &format!("  {} l stand in chambers\n", figures(estimate.held * 1e3, 3));
+        for (volume, place) in [
+            (estimate.held, "chambers"),
+            (estimate.in_pockets, "pockets of bearings"),
+        ] {
+            if volume > 0.0 {
+                text += &format!("  {} l stand in {place}\n", figures(volume * 1e3, 3));
+            }
         }
     }
     text
