@@ -64,6 +64,7 @@ mod peers;
 mod performance;
 mod plain_bearings;
 mod planetary;
+mod planets;
 mod program;
 mod ratings;
 mod reader;
