@@ -445,7 +445,7 @@ mod tests {
             let mut sorted = own.clone();
             sorted.sort_by(|a, b| b.total_cmp(a));
             for (one, other) in sorted.iter().zip(&ordered) {
-                prop_assert!((one - other).abs() < 1e-9 * mean, "{sorted:?} {ordered:?}");
+                prop_assert!((one - other).abs() < 1e-6 * mean, "{sorted:?} {ordered:?}");
             }
             // A high torque evens out.
             let high = forces.at(1e9);
