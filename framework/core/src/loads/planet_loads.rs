@@ -89,11 +89,11 @@ impl ElasticPlanets {
         let mut right = [[0.0; 3], [1.0, 0.0, 0.0]];
         for planet in (0..self.count()).filter(|planet| carry[*planet]) {
             let row = self.row(planet);
-            for i in 0..3 {
-                for j in 0..3 {
-                    matrix[i][j] += self.stiffness * row[i] * row[j];
+            for ((line, still), own) in matrix.iter_mut().zip(&mut right[0]).zip(row) {
+                for (entry, other) in line.iter_mut().zip(row) {
+                    *entry += self.stiffness * own * other;
                 }
-                right[0][i] -= self.stiffness * row[i] * self.offset(planet, sense);
+                *still -= self.stiffness * own * self.offset(planet, sense);
             }
         }
         let floats = self.centring.is_some();
@@ -292,7 +292,9 @@ impl PinForces {
 fn without_rounding(mut lines: Vec<[f64; 2]>, sums: [f64; 2]) -> Vec<[f64; 2]> {
     for (i, sum) in sums.into_iter().enumerate() {
         let own: f64 = lines.iter().map(|line| line[i]).sum();
-        lines.iter_mut().for_each(|line| line[i] *= sum / own);
+        for line in &mut lines {
+            line[i] *= sum / own;
+        }
     }
     lines
 }
@@ -312,13 +314,18 @@ fn solve(mut matrix: [[f64; 3]; 3], mut right: [Place; 2]) -> [Place; 2] {
             }
         });
         matrix.swap(column, pivot);
-        right.iter_mut().for_each(|own| own.swap(column, pivot));
+        for own in &mut right {
+            own.swap(column, pivot);
+        }
         for line in column + 1..3 {
             let factor = matrix[line][column] / matrix[column][column];
-            for i in column..3 {
-                matrix[line][i] -= factor * matrix[column][i];
+            let above = matrix[column];
+            for (entry, above) in matrix[line].iter_mut().zip(above).skip(column) {
+                *entry -= factor * above;
             }
-            right.iter_mut().for_each(|own| own[line] -= factor * own[column]);
+            for own in &mut right {
+                own[line] -= factor * own[column];
+            }
         }
     }
     right.map(|own| {

@@ -146,8 +146,10 @@ impl Sharing {
                         .map(|(own, direction)| own[part] * of(direction))
                         .sum()
                 };
-                let (y, z): (fn(&(f64, f64)) -> f64, fn(&(f64, f64)) -> f64) = (|d| d.1, |d| d.0);
-                [[*knot, sum(0, y), sum(1, y)], [*knot, sum(0, z), sum(1, z)]]
+                [
+                    [*knot, sum(0, |direction| direction.1), sum(1, |direction| direction.1)],
+                    [*knot, sum(0, |direction| direction.0), sum(1, |direction| direction.0)],
+                ]
             });
             // A member that floats freely passes no force on, so that all forces balance.
             if elastic.centring == Some(0.0) {
