@@ -152,6 +152,7 @@ fn the_examples_have_the_same_bits_side_by_side_and_alone() {
             &[None, Some("joint"), Some("iso14179_2")][..],
         ),
         ("examples/planetary-reducer/gearbox.yaml", &[None]),
+        ("examples/planet-pins/gearbox.yaml", &[None]),
         ("examples/electric-drive-unit/gearbox.yaml", &[None]),
         ("examples/electric-drive-unit/gearbox-beam.yaml", &[None]),
         ("examples/worm-drive/gearbox.yaml", &[None]),

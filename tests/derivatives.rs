@@ -344,6 +344,14 @@ fn a_kink_is_reported_with_both_sides() {
 }
 
 #[test]
+fn derivatives_with_loads_of_planets_by_their_pins_agree_with_differences() {
+    let rig = Rig::new("planet-pins", Choice::default(), "reducing", 100.0, 1800.0, Some(70.0));
+    for variable in ["torque:input", "speed:input"] {
+        rig.compare(variable, 1e-6);
+    }
+}
+
+#[test]
 fn what_is_not_given_or_does_not_exist_is_an_error_with_help() {
     let rig = Rig::new("planetary-reducer", Choice::default(), "reducing", 20.0, 3000.0, None);
     for (variable, words) in [

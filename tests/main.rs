@@ -64,6 +64,7 @@ mod peers;
 mod performance;
 mod plain_bearings;
 mod planetary;
+mod planets;
 mod power_split;
 mod program;
 mod ratings;

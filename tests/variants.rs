@@ -13,12 +13,13 @@ use serde_json::Value;
 use std::path::PathBuf;
 
 /// The gearboxes of the examples.
-const EXAMPLES: [&str; 8] = [
+const EXAMPLES: [&str; 9] = [
     "examples/two-speed-ev/gearbox.yaml",
     "examples/electric-drive-unit/gearbox.yaml",
     "examples/electric-drive-unit/gearbox-40.yaml",
     "examples/electric-drive-unit/gearbox-beam.yaml",
     "examples/planetary-reducer/gearbox.yaml",
+    "examples/planet-pins/gearbox.yaml",
     "examples/two-products/theirs.yaml",
     "examples/foreign-map/gearbox.yaml",
     "examples/transfer-case/gearbox.yaml",

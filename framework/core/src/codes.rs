@@ -104,6 +104,12 @@ gearloss_document::codes! {
     WINDOW = "E0361", "a window that no gear can throw oil through",
         cause: "The window of a pocket has no size, its wall is not beside its gear, or how much oil the gear lifts is not known.",
         help: "Correct the places of the window, or name a gear with a churning law and a stationary axis along x.";
+    PINS = "E0376", "load sharing of planets that cannot be",
+        cause: "Planets cannot have the stated load sharing, or `pins` has values for another number of planets or lists a shaft twice.",
+        help: "Correct the key that the message names.";
+    PINS_UNDETERMINED = "E0377", "load sharing of planets that cannot be calculated",
+        cause: "`pins` calculates the load sharing of one planet body in mesh with two gears on the central axis, by the tangential force of its pins.",
+        help: "State `load_sharing` as a number instead.";
     THERMAL = "E0401", "invalid thermal description",
         cause: "The balance has no heat path, or values of the thermal section contradict each other.",
         help: "Correct the section `thermal`.";
@@ -178,4 +184,7 @@ gearloss_document::codes! {
     LEVEL_HEIGHT = "W0362", "heights of the oil network do not follow the inclination",
         cause: "The housing is inclined or travels, and the place of a junction or of a mouth along and across the shafts is not stated.",
         help: "State `x` and `y` of the junction, or `inlet_x` and `inlet_y` of the pipe.";
+    EQUAL_PLANETS = "W0376", "planets are assumed to share equally",
+        cause: "Four and more planets, or three between members that all have bearings, carry different loads as soon as their pins have position errors.",
+        help: "State the errors in `pins`, or `load_sharing`: 1 if they share equally.";
 }

@@ -12,6 +12,7 @@ pub mod housing;
 pub mod lubricant;
 pub mod network;
 pub mod oil_network;
+pub mod pins;
 pub mod plausibility;
 pub mod shafts;
 pub mod shift_sign;

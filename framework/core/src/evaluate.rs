@@ -446,6 +446,23 @@ impl Transmission {
         for ((factor, force), multiplier) in self.force_factors().zip(&mut m.forces).zip(multipliers) {
             *force = *multiplier * factor;
         }
+        if self.uneven > 0 {
+            self.share(m);
+        }
+    }
+
+    /// Shares the forces of all meshes among the planets of their sets.
+    #[inline(never)]
+    fn share<R: Points>(&self, m: &mut Models<R>) {
+        let sharing = |mesh: usize| self.meshes.get(mesh).and_then(|mesh| mesh.sharing.as_ref());
+        for (which, forces) in m.uneven_forces.iter_mut().enumerate() {
+            for (i, (force, mean)) in forces.iter_mut().zip(&m.forces).enumerate() {
+                *force = sharing(i).map_or(*mean, |own| own.force(which, *mean));
+            }
+        }
+        for (i, (force, mean)) in m.turning.iter_mut().zip(&m.forces).enumerate() {
+            *force = sharing(i).map_or(R::ZERO, |own| own.across(*mean));
+        }
     }
 
     /// Loads of the supports of the group of a component, unless they are known for these torques.
@@ -469,24 +486,19 @@ impl Transmission {
         let teeth = ToothForces {
             tangential: &m.forces,
             friction: &m.friction,
+            turning: &m.turning,
         };
         self.loads
             .evaluate(group, teeth, &c.speeds, &m.closings, &mut m.passed, &mut c.loads);
         self.correct_loads(case, group, ports, &mut c.loads);
-        if self.uneven {
-            for (which, loads) in m.uneven_loads.iter_mut().enumerate() {
-                for (i, (force, mean)) in m.uneven_forces.iter_mut().zip(&m.forces).enumerate() {
-                    let sharing = self.meshes.get(i).and_then(|mesh| mesh.sharing);
-                    *force = *mean * sharing.map_or(1.0, |s| s.factors()[which]);
-                }
-                let teeth = ToothForces {
-                    tangential: &m.uneven_forces,
-                    friction: &m.friction,
-                };
-                self.loads
-                    .evaluate(group, teeth, &c.speeds, &m.closings, &mut m.passed, loads);
-                self.correct_loads(case, group, ports, loads);
-            }
+        for (forces, loads) in m.uneven_forces.iter().zip(&mut m.uneven_loads) {
+            let teeth = ToothForces {
+                tangential: forces,
+                ..teeth
+            };
+            self.loads
+                .evaluate(group, teeth, &c.speeds, &m.closings, &mut m.passed, loads);
+            self.correct_loads(case, group, ports, loads);
         }
     }
 
@@ -569,6 +581,7 @@ impl Transmission {
         let teeth = ToothForces {
             tangential: &m.forces,
             friction: &m.friction,
+            turning: &m.turning,
         };
         let noted = self
             .pairs
@@ -717,10 +730,10 @@ impl Transmission {
     ) -> Result<Loss<R>, Undefined> {
         let mesh = &self.meshes[index];
         book.clear(mesh.law.notes());
-        match mesh.sharing {
+        match &mesh.sharing {
             None => self.one_mesh(index, tangential, drives, state, book, live),
-            Some(sharing) => over_planets(sharing, book, mesh.law.notes(), |which| {
-                let tangential = tangential * sharing.factors()[which];
+            Some(sharing) => over_planets(&sharing.set, book, mesh.law.notes(), |which| {
+                let tangential = sharing.force(which, tangential);
                 self.one_mesh(index, tangential, drives, state, book, live)
             }),
         }
@@ -956,12 +969,12 @@ fn component_loss<R: Answers>(
 fn loaded_loss<R: Answers>(
     component: &Component,
     state: &State<'_, R>,
-    uneven: &[Vec<SupportLoad<R>>; 2],
+    uneven: &[Vec<SupportLoad<R>>],
     book: &Notebook<'_, R>,
     live: &mut R::Mask,
 ) -> Result<Loss<R>, Undefined> {
     book.clear(component.notes);
-    match component.sharing {
+    match &component.sharing {
         None => component_loss(component, state, book, live),
         Some(sharing) => over_planets(sharing, book, component.notes, |which| {
             let loads = &uneven[which];
@@ -970,19 +983,29 @@ fn loaded_loss<R: Answers>(
     }
 }
 
-/// The mean over the planets of a set: the most loaded one and the others, each evaluated once. The notes of the others are added
-/// to those of the first.
+/// The mean over the planets of a set: those with different loads, the most loaded one first, each evaluated once. The notes of the others
+/// are added to those of the first.
 fn over_planets<R: Points>(
-    sharing: Sharing,
+    sharing: &Sharing,
     book: &Notebook<'_, R>,
     base: NoteBase,
     mut evaluate: impl FnMut(usize) -> Result<Loss<R>, Undefined>,
 ) -> Result<Loss<R>, Undefined> {
     let notes = book.notes(base);
     notes.branch("the most loaded planet");
-    let most = evaluate(0)?;
-    notes.branch("each other planet");
-    Ok(most.mean(sharing.weight, evaluate(1)?))
+    let counts = sharing.counts();
+    let (mut mean, mut planets) = (evaluate(0)?, counts[0]);
+    for (which, count) in counts.iter().enumerate().skip(1) {
+        notes.branch(if counts.len() == 2 {
+            "each other planet"
+        } else {
+            "another planet"
+        });
+        let all = planets + count;
+        mean = mean.mean(planets / all, evaluate(which)?);
+        planets = all;
+    }
+    Ok(mean)
 }
 
 /// A model's result is accepted only if it is finite and not negative, and if it is zero where thrust is untaken. Among several

@@ -9,6 +9,7 @@ mod carries;
 mod induced;
 mod layout;
 mod pair;
+mod planet_loads;
 mod shaft_loads;
 mod static_rating;
 mod statics;
@@ -22,6 +23,7 @@ pub use layout::{
     CrossedMesh, CylindricalMesh, Layout, LoadFault, MemberLayout, MeshLayout, PlanetBody, Section, SupportLayout,
 };
 pub use pair::{Pair, PairLoads, PairSpring, PairedSupport};
+pub use planet_loads::{ElasticPlanets, PinForces};
 pub use shaft_loads::{Group, ShaftLoads, ToothForces};
 pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};
 pub use stiff_pair::{AngularRow, StiffPair};

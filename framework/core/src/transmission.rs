@@ -16,6 +16,7 @@ mod nodes;
 mod oil_network;
 mod oils;
 mod pairs;
+mod planet_sharing;
 mod planets;
 mod plausible;
 mod preloads;
@@ -52,7 +53,8 @@ pub(crate) use states::RowName;
 
 pub(crate) use nodes::NodeNames;
 pub(crate) use oil_network::raceway;
-pub(crate) use planets::Sharing;
+pub use planet_sharing::PlanetShares;
+pub(crate) use planet_sharing::{MeshSharing, Sharing};
 pub(crate) use transfers::{Transfer, TransferLaw};
 
 use crate::description::{RatingEntry, ThermalMode};
@@ -127,7 +129,7 @@ pub(crate) struct MeshModel {
     /// Factor on the loss of the model.
     pub loss_factor: f64,
     /// Load sharing among planets, if the planets of its set carry different loads.
-    pub sharing: Option<Sharing>,
+    pub sharing: Option<MeshSharing>,
     /// Tangential force of one copy per multiplier of its row. \[1/m\]
     pub force_per_multiplier: f64,
 }
@@ -206,7 +208,7 @@ pub(crate) struct Component {
     /// Number of its support, if it carries load.
     pub support: Option<u16>,
     /// Load sharing among planets, if it is on a planet and the planets carry different loads.
-    pub sharing: Option<Sharing>,
+    pub sharing: Option<Arc<Sharing>>,
     /// Position of the notes of its model.
     pub notes: NoteBase,
     /// Number of copies, times the factor on the loss.
@@ -220,7 +222,7 @@ impl Component {
     }
 
     /// A placed component. Unequal load sharing matters only if the loss may depend on load.
-    fn new(placed: Box<dyn Placed>, count: f64, sharing: Option<Sharing>) -> Self {
+    fn new(placed: Box<dyn Placed>, count: f64, sharing: Option<Arc<Sharing>>) -> Self {
         Self {
             between: placed.between(),
             loaded: placed.loaded(),
@@ -282,8 +284,8 @@ pub struct Transmission {
     pub(crate) load_factors: Vec<statics::LoadFactors>,
     pub(crate) imported: Option<statics::Imported>,
     pub(crate) supports: Vec<String>,
-    /// True if the planets of a set carry different loads.
-    pub(crate) uneven: bool,
+    /// Greatest number of different loads of the planets of a set; zero if all share equally.
+    pub(crate) uneven: usize,
     /// Relative speed, as a fraction of the common speed, below which friction between two bodies decreases.
     pub(crate) locked_below: f64,
     /// Findings that do not prevent evaluation.

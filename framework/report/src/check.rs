@@ -91,6 +91,9 @@ pub fn checked_text(file: &str, checked: &CheckedGearbox) -> String {
     for found in &checked.load_sharings {
         text.push_str(&format!("  {}\n", found.sentence()));
     }
+    for found in &checked.planet_sharings {
+        text.push_str(&format!("  {}\n", found.sentence()));
+    }
     let dry = dry_bearings(checked);
     if let Some(found) = dry.first() {
         let paths: Vec<&str> = dry.iter().map(|found| found.path.as_str()).collect();

@@ -15,7 +15,7 @@ use std::fmt::Display;
 use gearloss_framework::evaluate::{PowerFlow, Solution};
 use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::transmission::{BearingPair, Transmission};
+use gearloss_framework::transmission::{BearingPair, PlanetShares, Transmission};
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::RPM;
 use gearloss_studies::pairs::preload_records;
@@ -109,6 +109,9 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
     let flow = solution.has_flow();
     if flow && !transmission.supports().is_empty() {
         blocks.table(bearing_loads(transmission, solution));
+        for planets in solution.planet_shares() {
+            blocks.text(&planets_text(&planets));
+        }
         for preload in preload_records(transmission, solution) {
             blocks.text(&(preload.sentence() + "\n"));
         }
@@ -174,6 +177,21 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
     blocks.append(temperature_blocks(transmission, found));
     blocks.text(&outside_ranges(solved));
     blocks
+}
+
+/// The load sharing of planets in one line.
+fn planets_text(found: &PlanetShares) -> String {
+    let shares: Vec<String> = found.shares.iter().map(|share| format!("{share:.4}")).collect();
+    let moved: Vec<String> = (found.displacements.iter())
+        .map(|(member, displacement)| format!("; {member} moves by {:.2} um", displacement * 1e6))
+        .collect();
+    format!(
+        "planets of {}: K_gamma {:.4}; shares {}{}\n",
+        found.set,
+        found.k_gamma(),
+        shares.join(", "),
+        moved.concat()
+    )
 }
 
 /// The electric machines at a point.

@@ -1,6 +1,7 @@
 //! A gearbox that was checked: what it is built from, and what deserves attention.
 
 mod load_sharing;
+mod planet_sharing;
 
 use std::path::Path;
 
@@ -24,6 +25,7 @@ use crate::points::{Note, STATIC_SAFETY, WeakPoint, evidence, merge, notes};
 use crate::ratings::{RatedQuantity, rated};
 
 pub use load_sharing::SharingAtRating;
+pub use planet_sharing::PlanetsAtRating;
 
 /// A gearbox that was read, resolved and built.
 pub struct CheckedGearbox {
@@ -41,6 +43,8 @@ pub struct CheckedGearbox {
     pub changed: Vec<Changed>,
     /// Losses of the meshes by their load sharing and by one calculated in thin slices, at the rating.
     pub load_sharings: Vec<SharingAtRating>,
+    /// What position errors of the pins of planets change at the rating.
+    pub planet_sharings: Vec<PlanetsAtRating>,
 }
 
 impl CheckedGearbox {
@@ -58,8 +62,10 @@ impl CheckedGearbox {
             resolved,
             transmission,
             load_sharings: Vec::new(),
+            planet_sharings: Vec::new(),
         };
         checked.load_sharings = load_sharing::load_sharings(language, &checked);
+        checked.planet_sharings = planet_sharing::planet_sharings(language, &checked);
         Ok(checked)
     }
 

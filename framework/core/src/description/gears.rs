@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::defaults::default_one;
 use super::housing::WallClearance;
+use super::pins::PinsEntry;
 use super::shafts::Unsupported;
 use super::shift_sign::ShiftSign;
 use crate::contact::sharing::modification::FlankModification;
@@ -207,14 +208,15 @@ pub struct PlanetarySetEntry {
     /// Shaft of the carrier.
     #[schemars(extend("x-refers-to" = "shafts"))]
     pub carrier: String,
-    /// Number of equal, equally spaced planets: their transverse forces on central members cancel. [-]
+    /// Number of equal, equally spaced planets: their transverse forces on central members cancel if they share the load equally. [-]
     #[schemars(range(min = 2, max = 50))]
     pub count: u32,
-    /// Load sharing among the planets, K_gamma: load of the most loaded planet over the mean; the others share the rest equally.
-    /// The losses of meshes and bearings on the planets are means over the planets. [-]
-    #[serde(default = "equal")]
+    /// Load sharing among the planets, K_gamma: load of the most loaded planet over the mean; the others share the rest equally. Default: 1.
+    /// The losses of meshes and bearings on the planets are means over the planets. Instead of it, `pins` calculates the sharing. [-]
     #[schemars(range(min = 1.0, max = 50.0))]
-    pub load_sharing: f64,
+    pub load_sharing: Option<f64>,
+    /// Position errors of the pins, play and stiffness, from which the load sharing is calculated.
+    pub pins: Option<PinsEntry>,
     /// Shafts that are the planet bodies; each represents all of its equal copies.
     #[schemars(length(min = 1))]
     #[schemars(extend("x-refers-to" = "shafts"))]
@@ -242,10 +244,6 @@ pub struct PlanetarySetEntry {
     pub loss_factor: f64,
     /// Drag model of the carrier with its planets; default: that of `models`.
     pub model: Option<ModelRef<PlanetaryDrag>>,
-}
-
-fn equal() -> f64 {
-    1.0
 }
 
 /// A differential: the speeds of both sides relative to the case add up to zero. Without a `model` its gears have no friction.

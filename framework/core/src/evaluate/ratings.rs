@@ -206,7 +206,7 @@ impl Solution<'_> {
         match built {
             Kind::Component(i, rating) => {
                 let component = &t.components[*i];
-                let most = component.sharing.and(s.models.uneven_loads.first());
+                let most = component.sharing.as_ref().and(s.models.uneven_loads.first());
                 let state = State {
                     loads: most.map_or(state.loads, Vec::as_slice),
                     ..state
@@ -214,17 +214,15 @@ impl Solution<'_> {
                 component.placed.rate(&**rating, &state, book)
             }
             Kind::Mesh(i, rating) => {
-                let most = t.meshes[*i].sharing.map_or(1.0, |sharing| sharing.factors()[0]);
+                let mean = s.models.tangential[*i];
+                let most = t.meshes[*i]
+                    .sharing
+                    .as_ref()
+                    .map_or(mean, |sharing| sharing.force(0, mean));
                 let MeshLaw::Cylindrical { part, .. } = &t.meshes[*i].law else {
                     return Ok(Rated::default());
                 };
-                let muted = t.mesh_at(
-                    (*i, part),
-                    s.models.tangential[*i] * most,
-                    s.work.drives[*i],
-                    &state,
-                    &Notebook::CLOSED,
-                );
+                let muted = t.mesh_at((*i, part), most, s.work.drives[*i], &state, &Notebook::CLOSED);
                 rating.rate(&muted.with(|to| to.notes = book.notes(rating.notes)))
             }
             Kind::WormMesh(i, rating) => match self.worm_mesh_at(*i) {

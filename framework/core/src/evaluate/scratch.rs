@@ -109,10 +109,12 @@ impl<R: Points> Conditions<R> {
 #[derive(Debug, Clone)]
 pub(super) struct Models<R: Points> {
     pub conditions: Conditions<R>,
-    /// Loads with the most loaded planet of each set, and with each other planet; empty if planets share equally.
-    pub uneven_loads: [Vec<SupportLoad<R>>; 2],
-    /// Tangential forces with those of a planet's meshes; empty if planets share equally.
-    pub uneven_forces: Vec<R>,
+    /// Loads and tangential forces with the most loaded planet of each set, and with each of those with other loads; empty if planets share
+    /// equally. \[-, N\]
+    pub uneven_loads: Vec<Vec<SupportLoad<R>>>,
+    pub uneven_forces: Vec<Vec<R>>,
+    /// Tangential force of each mesh whose transverse force turns with the carrier; empty if planets share equally. \[N\]
+    pub turning: Vec<R>,
     pub passed: Vec<R>,
     /// Closings of pairs with a preload, by member; empty without such pairs. \[m\]
     pub closings: Vec<R>,
@@ -217,7 +219,6 @@ impl<R: Points> Scratch<R> {
         // Not evaluated yet.
         let losses = |count: usize| vec![Ok(Loss::POWERS); count];
         let with_friction = if transmission.has_crossed_meshes() { meshes } else { 0 };
-        let uneven = |count: usize| if transmission.uneven { count } else { 0 };
         Self {
             models: Models {
                 conditions: Conditions {
@@ -238,8 +239,9 @@ impl<R: Points> Scratch<R> {
                     trace: None,
                     calls: Cell::new(0),
                 },
-                uneven_loads: [(); 2].map(|()| vec![SupportLoad::default(); uneven(supports)]),
-                uneven_forces: zeros(uneven(forces)),
+                uneven_loads: vec![vec![SupportLoad::default(); supports]; transmission.uneven],
+                uneven_forces: vec![zeros(forces); transmission.uneven],
+                turning: zeros(if transmission.uneven > 0 { forces } else { 0 }),
                 passed: zeros(transmission.loads.scratch_len()),
                 closings: zeros(if transmission.pairs.iter().any(|pair| pair.preload.is_some()) {
                     transmission.members.len()

@@ -10,7 +10,7 @@ use crate::mechanism::crossed_helical_mesh::CrossedHelicalMeshAt;
 use crate::mechanism::gear_mesh::GearMeshAt;
 use crate::mechanism::worm_mesh::WormMeshAt;
 use crate::real::{Points, Real};
-use crate::transmission::{Case, MeshLaw, PartInfo, PartKind, Transmission};
+use crate::transmission::{Case, MeshLaw, PartInfo, PartKind, PlanetShares, Transmission};
 
 /// Loss of one part, all copies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -282,6 +282,18 @@ impl Solution<'_> {
         (self.has_flow() && !nothing_left).then_some(torque)
     }
 
+    /// Load sharing of each planetary set whose planets carry different loads, by the first of its meshes.
+    pub fn planet_shares(&self) -> Vec<PlanetShares> {
+        let mut found: Vec<PlanetShares> = Vec::new();
+        for (mesh, force) in self.transmission.meshes.iter().zip(&self.scratch.models.forces) {
+            let Some(sharing) = &mesh.sharing else { continue };
+            if found.iter().all(|known| known.set != sharing.set.set) {
+                found.extend(sharing.set.shares(*force * sharing.pin));
+            }
+        }
+        found
+    }
+
     /// Load of a support by number on the most loaded planet of its set; `None` if planets share equally.
     pub fn most_loaded(&self, support: usize) -> Option<SupportLoad> {
         let of = self
@@ -289,8 +301,8 @@ impl Solution<'_> {
             .components
             .iter()
             .find(|c| c.support == Some(support as u16))?;
-        of.sharing
-            .and(self.scratch.models.uneven_loads[0].get(support).copied())
+        of.sharing.as_ref()?;
+        self.scratch.models.uneven_loads.first()?.get(support).copied()
     }
 
     /// Load of a support by number; the mean over the planets if it is on one.
@@ -304,22 +316,14 @@ impl Solution<'_> {
         let t = self.transmission;
         let models = &self.scratch.models;
         let support = t.pairs.get(pair)?.supports().next()?;
-        let forces = models.forces.iter().enumerate();
-        let forces: Vec<f64> = forces
-            .map(|(i, force)| {
-                let sharing = t.meshes.get(i).and_then(|mesh| mesh.sharing);
-                match sharing.filter(|_| most_loaded) {
-                    Some(sharing) => *force * sharing.factors()[0],
-                    None => *force,
-                }
-            })
-            .collect();
+        let most = models.uneven_forces.first().filter(|_| most_loaded);
         let mut passed = vec![0.0; t.loads.scratch_len()];
         t.loads.pair_loads(
             support,
             ToothForces {
-                tangential: &forces,
+                tangential: most.unwrap_or(&models.forces),
                 friction: &models.friction,
+                turning: &models.turning,
             },
             &models.conditions.speeds,
             &models.closings,
@@ -380,7 +384,26 @@ impl Solution<'_> {
         })
     }
 
-    /// The radial force of each support on its inner member, y and z, with its factor; the mean over the planets if it is on one, where y
+    /// The part of the radial load of a support that turns with a carrier, whose planets carry different loads, with its load factor; zero for
+    /// an imported load. \[N\]
+    pub fn turning_load(&self, support: usize) -> f64 {
+        let t = self.transmission;
+        let imported = t.imported.as_ref();
+        if imported.is_some_and(|own| own.reads(self.case.state, support).is_some()) {
+            return 0.0;
+        }
+        let teeth = self.teeth();
+        let turning = t.loads.turning(support, teeth);
+        if turning > 0.0 {
+            let standing = t.loads.on_inner(teeth, self.scratch.speeds())[support];
+            let all = standing[0].hypot(standing[1]).hypot(turning);
+            turning * self.load(support).radial / all
+        } else {
+            0.0
+        }
+    }
+
+    /// The radial force of each support on its inner member, y and z, with its factor, without the part that turns with a carrier; the mean over the planets if it is on one, where y
     /// points away from the axis of the carrier. `None` if the load is imported, which has no direction. \[N\]
     pub fn radial_forces(&self) -> Vec<Option<[f64; 2]>> {
         let t = self.transmission;
@@ -388,6 +411,7 @@ impl Solution<'_> {
         let teeth = ToothForces {
             tangential: &models.tangential,
             friction: &models.friction,
+            turning: &models.turning,
         };
         let forces = t.loads.on_inner(teeth, &models.conditions.speeds);
         let of_support = |(support, force): (usize, [f64; 2])| {
@@ -396,8 +420,12 @@ impl Solution<'_> {
                 return None;
             }
             let length = force[0].hypot(force[1]);
-            let factor = if length > 0.0 {
-                self.load(support).radial / length
+            let all = match t.loads.turning(support, teeth) {
+                0.0 => length,
+                turning => length.hypot(turning),
+            };
+            let factor = if all > 0.0 {
+                self.load(support).radial / all
             } else {
                 1.0
             };
@@ -503,6 +531,7 @@ impl Solution<'_> {
         ToothForces {
             tangential: &self.scratch.models.forces,
             friction: &self.scratch.models.friction,
+            turning: &self.scratch.models.turning,
         }
     }
 

@@ -25,6 +25,8 @@ pub struct PlanetBody {
     pub count: f64,
     /// Mass of one copy. \[kg\]
     pub mass: f64,
+    /// True if the copies carry different loads.
+    pub uneven: bool,
 }
 
 /// A member for statics.

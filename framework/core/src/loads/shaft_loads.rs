@@ -30,6 +30,9 @@ pub struct ToothForces<'a, R> {
     pub tangential: &'a [R],
     /// Friction force of each mesh, with the sign of the speed of the first gear; may be shorter, without those that no case needs. \[N\]
     pub friction: &'a [R],
+    /// Force of one planet in the direction of the first one whose transverse force on the gear and the carrier is that of all copies of a
+    /// mesh, but for its direction, which turns with the carrier; empty if all planets share equally. \[N\]
+    pub turning: &'a [R],
 }
 
 /// The value of a pair of cases for the sign of a force.
@@ -70,6 +73,9 @@ pub(super) struct Cases {
     friction: Vec<(usize, Senses<Reaction>)>,
     /// To the centrifugal force of a planet body per squared speed of its carrier.
     planets: Vec<(usize, Reaction)>,
+    /// To one newton of the tangential force of one copy of a mesh on a planet, as those of meshes: forces that turn with the carrier, for each
+    /// planet body on its own.
+    turning: Vec<Vec<(usize, [Reaction; 2])>>,
     /// True if there can be a couple.
     couples: bool,
     /// If a single mesh loads the support: the length of the force per newton, positive and negative.
@@ -84,20 +90,14 @@ impl Cases {
         units: &BTreeMap<usize, [Reaction; 2]>,
         friction: Vec<(usize, Senses<Reaction>)>,
         planets: Vec<(usize, Reaction)>,
+        turning: Vec<BTreeMap<usize, [Reaction; 2]>>,
     ) -> Self {
         let nothing = Reaction::default();
-        // The part that depends on the magnitude of a force is added to or subtracted from the linear part.
-        let of_senses = |pair: &[Reaction; 2]| {
-            [1.0, -1.0].map(|sense| {
-                let mut sum = pair[0];
-                add(&mut sum, &pair[1], sense);
-                sum
-            })
-        };
-        let meshes: Vec<(usize, [Reaction; 2])> = units
+        let meshes = by_senses(units);
+        let turning: Vec<_> = turning
             .iter()
-            .map(|(mesh, pair)| (*mesh, of_senses(pair)))
-            .filter(|(_, pair)| *pair != [nothing; 2])
+            .map(by_senses)
+            .filter(|of_body| !of_body.is_empty())
             .collect();
         let torqueless = always.force != [0.0; 2] || planets.iter().any(|(_, planet)| planet.force != [0.0; 2]);
         let only = match &meshes[..] {
@@ -107,9 +107,14 @@ impl Cases {
             _ => None,
         };
         let of_friction = friction.iter().flat_map(|(_, senses)| senses.as_flattened());
+        let of_turning = turning
+            .iter()
+            .flatten()
+            .flat_map(|(_, senses): &(usize, [Reaction; 2])| senses);
         let mut reactions = (units.values().flatten())
             .chain(planets.iter().map(|(_, planet)| planet))
-            .chain(of_friction);
+            .chain(of_friction)
+            .chain(of_turning);
         Self {
             only,
             couples: always.couple != [0.0; 2] || reactions.any(|reaction| reaction.couple != [0.0; 2]),
@@ -120,36 +125,51 @@ impl Cases {
                 .into_iter()
                 .filter(|(_, reaction)| *reaction != nothing)
                 .collect(),
+            turning,
         }
+    }
+
+    /// Adds the forces, or the couples, that turn with a carrier to the length of those that stand: the root of the mean square over a turn.
+    /// The mean is at most 10 % less, the cubic mean of a bearing's life at most 6.3 % more; both are equal to it if one part is zero.
+    #[inline(always)]
+    fn with_turning<R: Real>(
+        &self,
+        standing: R,
+        part: impl Fn(&Reaction) -> [f64; 2],
+        teeth: &ToothForces<'_, R>,
+    ) -> R {
+        if self.turning.is_empty() || teeth.turning.is_empty() {
+            return standing;
+        }
+        let mut square = standing * standing;
+        for meshes in &self.turning {
+            let [y, z] = of_meshes([R::ZERO; 2], meshes, &part, teeth.turning);
+            square += y * y + z * z;
+        }
+        square.sqrt()
     }
 
     /// The radial load of the support.
     #[inline(always)]
     fn radial<R: Real>(&self, teeth: &ToothForces<'_, R>, speeds: &[R]) -> R {
-        match &self.only {
+        let standing = match &self.only {
             Some((mesh, lengths)) => under(lengths, teeth.tangential[*mesh]),
             None => length(self.sum(|reaction| reaction.force, teeth, speeds)),
-        }
+        };
+        self.with_turning(standing, |reaction| reaction.force, teeth)
     }
 
     /// The force, or the couple, on the support; `part` chooses it. The part that is independent of torque depends on the squared
     /// speed of carriers.
     #[inline(always)]
     fn sum<R: Real>(&self, part: impl Fn(&Reaction) -> [f64; 2], teeth: &ToothForces<'_, R>, speeds: &[R]) -> [R; 2] {
-        let [y, z] = part(&self.always);
-        let (mut y, mut z) = (R::constant(y), R::constant(z));
+        let [mut y, mut z] = part(&self.always).map(R::constant);
         for (carrier, reaction) in &self.planets {
             let (case, factor) = (part(reaction), speeds[*carrier] * speeds[*carrier]);
             y += factor * case[0];
             z += factor * case[1];
         }
-        for (mesh, [ahead, back]) in &self.meshes {
-            let force = teeth.tangential[*mesh];
-            let backwards = force.is_below(R::ZERO);
-            let (ahead, back) = (part(ahead), part(back));
-            y += force * R::select(backwards, R::constant(back[0]), R::constant(ahead[0]));
-            z += force * R::select(backwards, R::constant(back[1]), R::constant(ahead[1]));
-        }
+        [y, z] = of_meshes([y, z], &self.meshes, &part, teeth.tangential);
         for (mesh, senses) in &self.friction {
             let along = |axis: usize| senses.map(|turns| turns.map(|reaction| part(&reaction)[axis]));
             y += teeth.friction(*mesh, along(0));
@@ -157,6 +177,41 @@ impl Cases {
         }
         [y, z]
     }
+}
+
+/// The reactions to a positive and to a negative newton of each mesh, without those that are zero; the part that depends on the magnitude of a
+/// force is added to or subtracted from the linear part.
+fn by_senses(units: &BTreeMap<usize, [Reaction; 2]>) -> Vec<(usize, [Reaction; 2])> {
+    let of_senses = |pair: &[Reaction; 2]| {
+        [1.0, -1.0].map(|sense| {
+            let mut sum = pair[0];
+            add(&mut sum, &pair[1], sense);
+            sum
+        })
+    };
+    units
+        .iter()
+        .map(|(mesh, pair)| (*mesh, of_senses(pair)))
+        .filter(|(_, pair)| *pair != [Reaction::default(); 2])
+        .collect()
+}
+
+/// Adds the forces, or the couples, by the tangential forces of meshes.
+#[inline(always)]
+fn of_meshes<R: Real>(
+    [mut y, mut z]: [R; 2],
+    meshes: &[(usize, [Reaction; 2])],
+    part: impl Fn(&Reaction) -> [f64; 2],
+    tangential: &[R],
+) -> [R; 2] {
+    for (mesh, [ahead, back]) in meshes {
+        let force = tangential[*mesh];
+        let backwards = force.is_below(R::ZERO);
+        let (ahead, back) = (part(ahead), part(back));
+        y += force * R::select(backwards, R::constant(back[0]), R::constant(ahead[0]));
+        z += force * R::select(backwards, R::constant(back[1]), R::constant(ahead[1]));
+    }
+    [y, z]
 }
 
 #[derive(Debug, Clone)]
@@ -251,7 +306,12 @@ impl Group {
         }));
         for group in &mut groups {
             let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
-            for (mesh, senses) in group.supports.iter().flat_map(|support| &cases[*support].meshes) {
+            let turning = group
+                .supports
+                .iter()
+                .flat_map(|support| cases[*support].turning.iter().flatten());
+            let standing = group.supports.iter().flat_map(|support| &cases[*support].meshes);
+            for (mesh, senses) in standing.chain(turning) {
                 let sizes = senses.iter().map(|reaction| length(reaction.force));
                 *forces.entry(*mesh).or_default() += sizes.sum::<f64>();
             }
@@ -282,9 +342,11 @@ impl ShaftLoads {
         let system = System::new(layout)?;
         let units = system.units();
         let cases = system.permanent().into_iter().zip(&units);
-        let cases = cases.zip(system.friction()).zip(system.planets());
+        let cases = cases.zip(system.friction()).zip(system.planets()).zip(system.turning());
         let cases: Vec<Cases> = cases
-            .map(|(((always, units), friction), planets)| Cases::new(always, units, friction, planets))
+            .map(|((((always, units), friction), planets), turning)| {
+                Cases::new(always, units, friction, planets, turning)
+            })
             .collect();
         let turned = layout.supports.iter();
         let turned = turned
@@ -342,7 +404,8 @@ impl ShaftLoads {
                 axial: R::ZERO,
                 // Few supports take a couple, and a square root is expensive.
                 tilting: if cases.couples {
-                    length(cases.sum(|reaction| reaction.couple, &teeth, speeds))
+                    let standing = length(cases.sum(|reaction| reaction.couple, &teeth, speeds));
+                    cases.with_turning(standing, |reaction| reaction.couple, &teeth)
                 } else {
                     R::ZERO
                 },
@@ -430,6 +493,11 @@ impl ShaftLoads {
         self.cases.iter().map(sum).collect()
     }
 
+    /// Length of the force of a support that turns with a carrier. \[N\]
+    pub(crate) fn turning(&self, support: usize, teeth: ToothForces<'_, f64>) -> f64 {
+        self.cases[support].with_turning(0.0, |reaction| reaction.force, &teeth)
+    }
+
     /// The force of each support on its inner member, y and z, at the speeds of all members (rad/s). On a planet, y points away from the
     /// axis of the carrier. \[N\]
     pub(crate) fn on_inner(&self, teeth: ToothForces<'_, f64>, speeds: &[f64]) -> Vec<[f64; 2]> {
@@ -475,6 +543,14 @@ fn loaded_places(layout: &Layout, own: &[Vec<(usize, SupportLayout)>], meshes_of
     for support in &layout.supports {
         if let Some(carrier) = layout.carried(support).1 {
             loaded[carrier].push(support.at);
+        }
+    }
+    for ((body, member), meshes) in layout.members.iter().enumerate().zip(meshes_of) {
+        // Forces of planets without bearings act on their carrier directly.
+        if let Some(planet) = member.planet.filter(|planet| planet.uneven && own[body].is_empty()) {
+            let start = layout.members[planet.carrier].start;
+            let places = meshes.iter().map(|mesh| &layout.meshes[*mesh]);
+            loaded[planet.carrier].extend(places.map(|mesh| mesh.at(usize::from(mesh.members()[0] != body), start)));
         }
     }
     for ((places, member), own) in loaded.iter_mut().zip(&layout.members).zip(own) {
@@ -690,6 +766,70 @@ impl<'a> System<'a> {
             }
         }
         units
+    }
+
+    /// Reactions of each support of other members to the units of each mesh of one copy of each planet body whose planets share unequally: on
+    /// the gears on the central axis, and on the carrier.
+    fn turning(&self) -> Vec<Vec<BTreeMap<usize, [Reaction; 2]>>> {
+        let layout = self.layout;
+        let mut turning = vec![Vec::new(); layout.supports.len()];
+        for (body, planet) in layout
+            .members
+            .iter()
+            .enumerate()
+            .filter_map(|(i, member)| Some((i, member.planet?)))
+        {
+            if !planet.uneven {
+                continue;
+            }
+            let mut own = vec![BTreeMap::new(); layout.supports.len()];
+            for (&i, unit) in self.meshes[body].iter().flat_map(|i| [(i, 0), (i, 1)]) {
+                let mesh = &layout.meshes[i];
+                let acts = |gear: usize, on: usize| Action {
+                    at: mesh.at(gear, layout.members[on].start),
+                    arm: mesh.arm(gear),
+                    force: mesh.forces(gear)[unit],
+                    moment: [0.0; 2],
+                };
+                let mut open = Vec::new();
+                for gear in 0..2 {
+                    let member = mesh.members()[gear];
+                    if mesh.is_central(gear) {
+                        open.push((member, vec![acts(gear, member)]));
+                    } else if member == body {
+                        open.push((planet.carrier, self.on_carrier(body, planet.carrier, &acts(gear, body))));
+                    }
+                }
+                for (support, reaction) in self.reactions(open) {
+                    let of_mesh: &mut [Reaction; 2] = own[support].entry(i).or_default();
+                    add(&mut of_mesh[unit], &reaction, 1.0);
+                }
+            }
+            for (turning, own) in turning.iter_mut().zip(own).filter(|(_, own)| !own.is_empty()) {
+                turning.push(own);
+            }
+        }
+        turning
+    }
+
+    /// What a force on a planet does to its carrier, through its supports; without any at its own place.
+    fn on_carrier(&self, body: usize, carrier: usize, action: &Action) -> Vec<Action> {
+        let start = |member: usize| self.layout.members[member].start;
+        let supports = &self.radial[body];
+        if supports.is_empty() {
+            return vec![Action {
+                at: action.at + start(body) - start(carrier),
+                ..*action
+            }];
+        }
+        let found = self.statics[body].reactions(std::slice::from_ref(action));
+        let through = supports.iter().zip(found).map(|((_, seat), reaction)| Action {
+            at: seat.at,
+            arm: [0.0; 2],
+            force: [0.0, -reaction.force[0], -reaction.force[1]],
+            moment: [-reaction.couple[0], -reaction.couple[1]],
+        });
+        through.collect()
     }
 
     /// Reactions of each support to the centrifugal forces of planets, with their carriers.

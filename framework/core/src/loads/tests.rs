@@ -55,6 +55,7 @@ fn teeth<R>(tangential: &[R]) -> ToothForces<'_, R> {
     ToothForces {
         tangential,
         friction: &[],
+        turning: &[],
     }
 }
 
@@ -502,6 +503,7 @@ fn g_planet_bearing() {
         orbit: a * 1e-3,
         count: 3.0,
         mass: 0.30,
+        uneven: false,
     });
     let pin = SupportLayout {
         outer: Some(1),

@@ -10,6 +10,7 @@ use super::nodes::{HeatPath, NodeNames, unmet};
 use super::oil_network::{self, element_paths};
 use super::oils::{OilNumbers, Oils};
 use super::pairs::{BearingPair, Design};
+use super::planet_sharing;
 use super::planets::{self, Held};
 use super::plausible;
 use super::preloads::Preloading;
@@ -160,7 +161,7 @@ impl Transmission {
             loads,
             load_factors,
             imported,
-            uneven: frame.sharing.iter().any(Option::is_some),
+            uneven: (frame.sharing.iter().flatten()).fold(0, |most, set| most.max(set.counts().len())),
             warnings,
             housing,
             machines,
@@ -293,7 +294,7 @@ struct Frame {
     meshes: Vec<MeshSeat>,
     transfers: Vec<TransferSeat>,
     /// Unequal load sharing of each planet body.
-    sharing: Vec<Option<Sharing>>,
+    sharing: Vec<Option<Arc<Sharing>>>,
     nodes: NodeNames,
     /// What is described on each member beside gears.
     described: Vec<Described>,
@@ -320,12 +321,17 @@ impl Frame {
     ) -> Result<Self, Vec<Diagnostic>> {
         let entry = entry_again(language, &resolved.value, memory)
             .map_err(|e| vec![Diagnostic::error("", format!("the description cannot be read: {e}"))])?;
-        let members = Members::new(&entry, found);
+        let mut members = Members::new(&entry, found);
         let ports = ports(&entry, &members, found);
         let (ports, wheels) = joined(&entry, &members, ports, found);
         classify(found, codes::SHAFTS);
         let (gears, meshes) = gearing(language.registry(), &entry, &members, memory, found, warnings);
-        let sharing = planets::sharing(&entry, &members, found);
+        let sharing = planet_sharing::sharing((&entry, &resolved.value), &members, &meshes, found, warnings);
+        for (planet, sharing) in members.planets.iter_mut().zip(&sharing) {
+            if let Some(planet) = planet {
+                planet.uneven = sharing.is_some();
+            }
+        }
         classify(found, codes::GEARING);
         let transfers = transfers::seats(&entry, &members, found, warnings);
         let nodes = NodeNames::new(&entry, found);
@@ -883,7 +889,7 @@ fn place(
                         .between()
                         .into_iter()
                         .flatten()
-                        .find_map(|m| frame.sharing[m as usize]);
+                        .find_map(|m| frame.sharing[m as usize].clone());
                     components.push(Component::new(placed, count * loss_factor, sharing));
                 }
                 Ok(None) => {}
@@ -962,7 +968,7 @@ fn mesh_models(
                 models.push(MeshModel {
                     bodies: None,
                     loss_factor: written.loss_factor,
-                    sharing: seat.members.iter().find_map(|m| frame.sharing[*m]),
+                    sharing: planet_sharing::of_mesh(i, seat, &frame.sharing),
                     force_per_multiplier: force_per_multiplier(seat),
                     seat: seat.clone(),
                     law: MeshLaw::Cylindrical { part, model },

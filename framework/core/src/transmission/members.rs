@@ -14,6 +14,8 @@ const MOST_MEMBERS: usize = u16::MAX as usize;
 pub(crate) struct OnCarrier {
     pub carrier: usize,
     pub count: f64,
+    /// True if the planets of its set carry different loads.
+    pub uneven: bool,
 }
 
 /// All members by name.
@@ -88,6 +90,7 @@ impl Members {
                         planets[body] = Some(OnCarrier {
                             carrier,
                             count: f64::from(set.count),
+                            uneven: false,
                         });
                     }
                 }

@@ -1,4 +1,4 @@
-//! Planets on their carriers: orbit radius, load sharing among planets, drag of the set, feasibility of assembly.
+//! Planets on their carriers: drag of the set, feasibility of assembly.
 
 use std::sync::Arc;
 
@@ -17,56 +17,6 @@ use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, Planetary
 use crate::mechanism::{ModelRef, Slot};
 use crate::real::{Dual, Lane, Points};
 use crate::registry::{Build, Placed, Sealed};
-
-/// Unequal load sharing among the planets of a set.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Sharing {
-    /// Load of the most loaded planet over the mean.
-    pub most: f64,
-    /// Load of each other planet over the mean.
-    pub others: f64,
-    /// Weight of the most loaded planet: one over the number of planets.
-    pub weight: f64,
-}
-
-impl Sharing {
-    /// Load over the mean: of the most loaded planet, and of each other planet.
-    pub fn factors(&self) -> [f64; 2] {
-        [self.most, self.others]
-    }
-
-    fn new(factor: f64, count: f64) -> Self {
-        Self {
-            most: factor,
-            others: (count - factor) / (count - 1.0),
-            weight: 1.0 / count,
-        }
-    }
-}
-
-/// Load sharing of the set of each planet member; `None` if all planets carry the same load.
-pub fn sharing(entry: &GearboxEntry, members: &Members, found: &mut Vec<Diagnostic>) -> Vec<Option<Sharing>> {
-    let mut sharing = vec![None; members.names.len()];
-    for (id, set) in entry.planetary_sets.iter() {
-        let count = f64::from(set.count);
-        if set.load_sharing > count {
-            found.push(
-                Diagnostic::error(
-                    format!("planetary_sets.{id}.load_sharing"),
-                    format!("one planet of {count} cannot carry {} times the mean", set.load_sharing),
-                )
-                .help(format!("write a number from 1 to {count}")),
-            );
-        } else if set.load_sharing > 1.0 {
-            for planet in &set.planets {
-                if let Some(body) = members.names.iter().position(|m| m == planet) {
-                    sharing[body] = Some(Sharing::new(set.load_sharing, count));
-                }
-            }
-        }
-    }
-    sharing
-}
 
 /// The placed drag model of a set.
 struct PlacedDrag {

@@ -232,6 +232,7 @@ fn member_layout(
         orbit: orbit(i, members, meshes).unwrap_or(0.0),
         count: planet.count,
         mass: shaft.mass,
+        uneven: planet.uneven,
     });
     member
 }

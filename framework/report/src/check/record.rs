@@ -8,7 +8,7 @@ use gearloss_framework::registry::{Evidence, Package};
 use gearloss_framework::transmission::{ChainStage, CrossedStage, Stage, TorqueOrder, Transmission};
 use gearloss_studies::analyses::Work;
 use gearloss_studies::bearings::{BearingCard, bearing_cards};
-use gearloss_studies::checked::{CheckedGearbox, SharingAtRating};
+use gearloss_studies::checked::{CheckedGearbox, PlanetsAtRating, SharingAtRating};
 use gearloss_studies::checked_study::CheckedStudy;
 use gearloss_studies::corpus::{Basis, Corpus, Set};
 use gearloss_studies::pairs::{PairCard, pair_cards};
@@ -104,6 +104,9 @@ struct BuiltRecord {
     /// Losses of meshes at the rated torque by their load sharing and by one calculated in thin slices; absent without any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     load_sharings: Vec<SharingAtRating>,
+    /// What position errors of the pins of planets change at the rated torque; absent without planets whose load sharing they determine.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    planet_sharings: Vec<PlanetsAtRating>,
     /// Coefficients of formulas that were changed from their source.
     changed_from_source: Vec<Changed>,
     /// The lowest evidence grade that its results depend on.
@@ -304,6 +307,7 @@ impl BuiltRecord {
                 because: weak.because,
             }),
             load_sharings: checked.load_sharings,
+            planet_sharings: checked.planet_sharings,
             changed_from_source: checked.changed,
             resolved: with_resolved.then_some(checked.resolved.value),
             denied: denied_grade.is_some_and(|grade| lowest.is_some_and(|lowest| lowest >= grade)),

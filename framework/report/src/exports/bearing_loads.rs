@@ -114,6 +114,12 @@ fn csv(all: &[BearingLoads], name: &str) -> std::io::Result<Vec<u8>> {
         })
         .number("radial_y_n", "N", "Force on the inner ring along y", |row| yz(row, 0))
         .number("radial_z_n", "N", "Force on the inner ring along z", |row| yz(row, 1))
+        .number(
+            "turning_n",
+            "N",
+            "Part of the radial load that turns with a carrier",
+            |row| row.3.load.map(|load| load.turning_n),
+        )
         .number("radial_n", "N", "Radial load", |row| {
             row.3.load.map(|load| load.radial_n)
         })

@@ -9,7 +9,7 @@ use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::machine::MachineState;
 use gearloss_framework::registry::Package;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::transmission::{CrossedStage, PartInfo, Port, Stage, Transmission};
+use gearloss_framework::transmission::{CrossedStage, PartInfo, PlanetShares, Port, Stage, Transmission};
 use gearloss_studies::analyses::balance::BalanceOfPoint;
 use gearloss_studies::analyses::numbers::{RPM, tidy};
 use gearloss_studies::pairs::{PreloadRecord, preload_records};
@@ -63,6 +63,9 @@ pub struct PointRecord {
     crossed_stages: Vec<CrossedStage>,
     /// Loads of all supports.
     supports: Vec<SupportRecord>,
+    /// Load sharing of planets that follows from position errors of their pins; absent without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    planets: Vec<PlanetsRecord>,
     /// Preloads of pairs of bearings; absent without any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     preloads: Vec<PreloadRecord>,
@@ -203,10 +206,56 @@ struct SupportRecord {
     induced_n: Option<f64>,
     /// Tilting moment; null if no flow was found. [Nm]
     tilting_nm: Option<f64>,
+    /// The part of the radial load that turns with a carrier, whose planets carry different loads; the radial load is the root of the mean
+    /// square over a turn. Null if no flow was found. [N]
+    turning_n: Option<f64>,
     /// Load at the most loaded planet; null for equal load sharing and for other supports.
     most_loaded_planet: Option<LoadRecord>,
     /// Static safety C0/P0 according to ISO 76, at the most loaded planet; null without load or without a known rating. [-]
     static_safety: Option<f64>,
+}
+
+/// Load sharing of the planets of a set.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Planets")]
+struct PlanetsRecord {
+    /// Id of the set.
+    set: String,
+    /// Load of the most loaded planet over the mean. [-]
+    k_gamma: f64,
+    /// Load of each planet over the mean. [-]
+    shares: Vec<f64>,
+    /// Radial displacements of floating members.
+    displacements: Vec<DisplacementRecord>,
+}
+
+/// Radial displacement of a floating member of a set; of several that float freely each has the one with which it alone would even out the
+/// load.
+#[derive(Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Displacement")]
+struct DisplacementRecord {
+    /// Name.
+    member: String,
+    /// Displacement. [um]
+    displacement_um: f64,
+}
+
+impl From<PlanetShares> for PlanetsRecord {
+    fn from(found: PlanetShares) -> Self {
+        let k_gamma = found.k_gamma();
+        let displacements = found.displacements.into_iter();
+        Self {
+            set: found.set,
+            k_gamma,
+            shares: found.shares,
+            displacements: displacements
+                .map(|(member, displacement)| DisplacementRecord {
+                    member,
+                    displacement_um: displacement * 1e6,
+                })
+                .collect(),
+        }
+    }
 }
 
 /// A load.
@@ -302,6 +351,9 @@ impl PointRecord {
             supports: supports
                 .map(|(i, path)| SupportRecord::new(solution, i, path))
                 .collect(),
+            planets: (solution.planet_shares().into_iter().filter(|_| solution.has_flow()))
+                .map(PlanetsRecord::from)
+                .collect(),
             preloads: preload_records(transmission, solution),
             parts: parts
                 .map(|(part, loss)| PartRecord::new(transmission, solution, part, &loss))
@@ -350,6 +402,7 @@ impl SupportRecord {
             axial_n: load.map(|load| load.axial),
             induced_n: solution.induced(number, false).filter(|_| flow),
             tilting_nm: load.map(|load| load.tilting),
+            turning_n: flow.then(|| solution.turning_load(number)),
             most_loaded_planet: most.map(LoadRecord::from),
             static_safety: solution.static_safety(number),
         }

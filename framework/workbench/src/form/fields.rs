@@ -298,9 +298,17 @@ impl Reader<'_> {
 
     fn planets(&self) -> Vec<Option<Field>> {
         let sets = self.ids("planetary_sets").into_iter();
-        sets.map(|id| {
-            let path = format!("planetary_sets.{id}.count");
-            self.field(&path, "Number of planets", FieldKind::Integer, "")
+        sets.flat_map(|id| {
+            let set = format!("planetary_sets.{id}");
+            let count = self.field(&format!("{set}.count"), "Number of planets", FieldKind::Integer, "");
+            let help = "most loaded planet over the mean; 1 if all share equally";
+            let sharing = self.field(
+                &format!("{set}.load_sharing"),
+                "Load sharing K_gamma",
+                FieldKind::Number,
+                help,
+            );
+            [count, sharing]
         })
         .collect()
     }

@@ -76,8 +76,10 @@ pub struct BearingLoad {
 /// The load of a bearing.
 #[derive(Debug, Clone, Copy)]
 pub struct Load {
-    /// Radial force on the inner ring, y and z; absent if the direction is not known. [N]
+    /// Radial force on the inner ring, y and z, without the part that turns with a carrier; absent if the direction is not known. [N]
     pub radial_yz_n: Option<[f64; 2]>,
+    /// Part of the radial load that turns with a carrier, whose planets carry different loads. [N]
+    pub turning_n: f64,
     /// Radial load. [N]
     pub radial_n: f64,
     /// Axial load without its direction. [N]
@@ -201,6 +203,7 @@ fn bearings(t: &Transmission, solution: &Solution<'_>) -> Vec<BearingLoad> {
         };
         let load = |load: gearloss_framework::loads::SupportLoad, radial_yz_n| Load {
             radial_yz_n,
+            turning_n: solution.turning_load(support),
             radial_n: load.radial,
             axial_n: load.axial,
             tilting_nm: load.tilting,
