@@ -104,6 +104,9 @@ gearloss_document::codes! {
     WINDOW = "E0361", "a window that no gear can throw oil through",
         cause: "The window of a pocket has no size, its wall is not beside its gear, or how much oil the gear lifts is not known.",
         help: "Correct the places of the window, or name a gear with a churning law and a stationary axis along x.";
+    MATERIAL = "E0370", "incomplete material",
+        cause: "A material lacks a value without which it cannot be calculated with: Young's modulus, Poisson's ratio, or one of the three thermal properties.",
+        help: "State the value, or a `designation` of the catalogue.";
     THERMAL = "E0401", "invalid thermal description",
         cause: "The balance has no heat path, or values of the thermal section contradict each other.",
         help: "Correct the section `thermal`.";
@@ -175,4 +178,13 @@ gearloss_document::codes! {
     MISSED_WINDOW = "W0360", "no oil comes through a window",
         cause: "The oil that the gear of a window throws at the rated speed passes the window of a pocket, or the gear throws none.",
         help: "Move the window, name another gear, or check the sense of rotation and the oil level.";
+    UNUSED_MATERIAL = "W0370", "material or modulus without effect",
+        cause: "No gear is made of a material, or a mesh states the modulus of gears that name their material.",
+        help: "Name the material at a gear, or remove what has no effect.";
+    WHEEL_MATERIAL = "W0371", "material of a worm wheel is doubtful",
+        cause: "The material of a worm wheel does not say what it is as such, or the mesh states another one.",
+        help: "State `worm_wheel` of the material, and no `material` of the worm mesh.";
+    METAL_LAW = "W0372", "law of metal flanks for a plastic gear",
+        cause: "A law of friction or film is a regression or a theory of metal flanks, and a gear of the mesh is of plastic.",
+        help: "Choose a law for plastics (`gearloss models mean_friction`), or state a coefficient.";
 }
