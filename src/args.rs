@@ -549,6 +549,8 @@ pub enum CatalogueArg {
     Bearings,
     /// Lubricants.
     Oils,
+    /// Materials of gears.
+    Materials,
 }
 
 /// Arguments of `validate`.

@@ -48,6 +48,7 @@ mod limits;
 mod locked;
 mod lsp;
 mod machines;
+mod materials;
 mod measured;
 mod measured_formats;
 mod mistakes;

@@ -30,6 +30,15 @@ inventory::submit! {
     }
 }
 
+inventory::submit! {
+    Catalogue {
+        section: "materials",
+        csv: include_str!("../catalogues/materials.csv"),
+        source: "Materials of gears: libraries of public gear programs and data sheets. Each row states its basis.",
+        origin: origin!(),
+    }
+}
+
 #[cfg(test)]
 mod bearings;
 

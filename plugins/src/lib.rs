@@ -16,6 +16,7 @@ pub mod crossed_helical_mesh;
 pub mod cycles;
 pub mod differential;
 mod efficiency;
+mod flank_heat;
 pub mod gear_drag;
 pub mod gear_mesh;
 pub mod heat_dissipation;

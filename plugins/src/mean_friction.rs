@@ -5,3 +5,4 @@ pub mod iso_13989;
 pub mod local;
 pub mod michaelis;
 pub mod schlenk;
+pub mod vdi_2736;

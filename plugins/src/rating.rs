@@ -12,6 +12,7 @@ pub mod iso_76;
 pub mod lip_seal;
 pub mod minimum_load;
 pub mod plain_bearing;
+pub mod plastic_temperature;
 
 use gearloss_framework::rating::Bound;
 

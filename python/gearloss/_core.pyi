@@ -223,7 +223,7 @@ def call(arguments: list[str]) -> int:
     """Runs a command of the program; returns its exit code."""
 
 def catalogue(of: str, text: str) -> list[dict[str, Any]]:
-    """Rows of the shipped catalogue of ``bearings`` or ``oils`` whose designations contain a text."""
+    """Rows of the shipped catalogue of ``bearings``, ``oils`` or ``materials`` whose designations contain a text."""
 
 def compute(parcel: bytes, analysis: str, stage: tuple[int, int, list[int]], before: bytes) -> bytes:
     """The results of tasks on one thread."""

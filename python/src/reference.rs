@@ -1,6 +1,6 @@
 //! Models and schemas.
 
-use gearloss::framework::language::{Kind, LUBRICANTS};
+use gearloss::framework::language::{Kind, LUBRICANTS, MATERIALS};
 use gearloss::report::check::CheckRecord;
 use gearloss::report::models::ModelsRecord;
 use gearloss::report::point::PointRecord;
@@ -16,25 +16,26 @@ pub fn models(py: Python<'_>) -> PyResult<Py<PyAny>> {
     json::to_python(py, &ModelsRecord::new(language(py)?, None, None))
 }
 
-/// Rows of the shipped catalogue of `bearings` or `oils` whose designations contain a text.
+/// Rows of the shipped catalogue of `bearings`, `oils` or `materials` whose designations contain a text.
 #[pyfunction]
 pub fn catalogue(py: Python<'_>, of: &str, text: &str) -> PyResult<Py<PyAny>> {
     let section = match of {
         "bearings" => "bearings",
         "oils" => LUBRICANTS,
+        "materials" => MATERIALS,
         other => {
             let message = format!("there is no catalogue of `{other}`");
             return Err(wrong(
                 py,
                 gearloss::framework::codes::UNKNOWN_NAME,
                 message,
-                "give bearings or oils",
+                "give bearings, oils or materials",
             ));
         }
     };
     let hits = language(py)?
         .catalogue(section)
-        .map(|all| all.search(text, section != LUBRICANTS));
+        .map(|all| all.search(text, section == "bearings"));
     let rows = hits.into_iter().flat_map(|hits| hits.rows);
     let rows = rows.map(|(designation, row)| {
         let mut all = serde_json::Map::from_iter([("designation".to_owned(), designation.into())]);

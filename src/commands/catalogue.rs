@@ -1,9 +1,9 @@
-//! `catalogue`: designations of bearings and oils for gearbox files.
+//! `catalogue`: designations of bearings, oils and materials for gearbox files.
 
 use std::path::Path;
 
 use gearloss_framework::document::did_you_mean;
-use gearloss_framework::language::LUBRICANTS;
+use gearloss_framework::language::{LUBRICANTS, MATERIALS};
 use gearloss_framework::registry::Files;
 use gearloss_framework::resolve::{CatalogueRow, CatalogueTable, known_start};
 use gearloss_studies::distinct::distinct;
@@ -17,6 +17,7 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
     let section = match args.of {
         CatalogueArg::Bearings => "bearings",
         CatalogueArg::Oils => LUBRICANTS,
+        CatalogueArg::Materials => MATERIALS,
     };
     let file_of_user = args
         .file
@@ -27,7 +28,7 @@ pub fn run(args: &CatalogueArgs, out: &mut Out) -> Result<End, Failure> {
         return Err(Failure::input("no catalogue is linked", "link a crate with catalogues"));
     };
     let text = args.text.as_deref().unwrap_or_default();
-    let hits = all.search(text, section != LUBRICANTS);
+    let hits = all.search(text, section == "bearings");
     if hits.rows.is_empty() {
         return Err(nothing(text, all));
     }

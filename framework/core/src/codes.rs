@@ -104,6 +104,9 @@ gearloss_document::codes! {
     WINDOW = "E0361", "a window that no gear can throw oil through",
         cause: "The window of a pocket has no size, its wall is not beside its gear, or how much oil the gear lifts is not known.",
         help: "Correct the places of the window, or name a gear with a churning law and a stationary axis along x.";
+    MATERIAL = "E0370", "incomplete material",
+        cause: "A material lacks a value without which it cannot be calculated with: Young's modulus, Poisson's ratio, or one of the three thermal properties.",
+        help: "State the value, or a `designation` of the catalogue.";
     PINS = "E0376", "load sharing of planets that cannot be",
         cause: "Planets cannot have the stated load sharing, or `pins` has values for another number of planets or lists a shaft twice.",
         help: "Correct the key that the message names.";
@@ -184,6 +187,15 @@ gearloss_document::codes! {
     LEVEL_HEIGHT = "W0362", "heights of the oil network do not follow the inclination",
         cause: "The housing is inclined or travels, and the place of a junction or of a mouth along and across the shafts is not stated.",
         help: "State `x` and `y` of the junction, or `inlet_x` and `inlet_y` of the pipe.";
+    UNUSED_MATERIAL = "W0370", "material or modulus without effect",
+        cause: "No gear is made of a material, or a mesh states the modulus of gears that name their material.",
+        help: "Name the material at a gear, or remove what has no effect.";
+    WHEEL_MATERIAL = "W0371", "material of a worm wheel is doubtful",
+        cause: "The material of a worm wheel does not say what it is as such, or the mesh states another one.",
+        help: "State `worm_wheel` of the material, and no `material` of the worm mesh.";
+    METAL_LAW = "W0372", "law of metal flanks for a plastic gear",
+        cause: "A law of friction or film is a regression or a theory of metal flanks, and a gear of the mesh is of plastic.",
+        help: "Choose a law for plastics (`gearloss models mean_friction`), or state a coefficient.";
     EQUAL_PLANETS = "W0376", "planets are assumed to share equally",
         cause: "Four and more planets, or three between members that all have bearings, carry different loads as soon as their pins have position errors.",
         help: "State the errors in `pins`, or `load_sharing`: 1 if they share equally.";

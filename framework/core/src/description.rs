@@ -10,6 +10,7 @@ mod defaults;
 pub mod gears;
 pub mod housing;
 pub mod lubricant;
+pub mod materials;
 pub mod network;
 pub mod oil_network;
 pub mod pins;
@@ -38,6 +39,7 @@ pub use housing::{
     Thermal, ThermalMode,
 };
 pub use lubricant::{Consistency, GreaseEntry, LubricantEntry};
+pub use materials::MaterialEntry;
 pub use network::{NetworkChoice, NetworkEntry, NodeEntry};
 pub use oil_network::{HoleEntry, OilNetworkEntry, PocketEntry, WindowEntry};
 pub use plausibility::PlausibilityEntry;
@@ -117,6 +119,9 @@ pub struct GearboxEntry {
     pub torque_shares: Vec<TorqueShare>,
     /// Flanks of all gears without their own.
     pub surface: Option<Surface>,
+    /// Materials of gears.
+    #[serde(default)]
+    pub materials: Ordered<MaterialEntry>,
     /// Oils.
     pub lubricants: Ordered<LubricantEntry>,
     /// Housing and its oil.
@@ -226,6 +231,7 @@ impl GearboxEntry {
             "joints" => entry_again(&mut self.joints, section_value, id),
             "machines" => entry_again(&mut self.machines, section_value, id),
             "lubricants" => entry_again(&mut self.lubricants, section_value, id),
+            "materials" => entry_again(&mut self.materials, section_value, id),
             "housing" => {
                 self.housing = HousingEntry::deserialize(section_value)?;
                 Ok(())

@@ -35,6 +35,7 @@ pub(crate) fn entries<M: Mechanism>() -> Vec<Entry> {
         evidence: const { &[formula(Evidence::User, "the user states it")] as &[Graded] },
         scope: Scope::Gear,
         geometry: false,
+        plastics: true,
         origin: crate::origin!(),
         schema,
         build,

@@ -59,6 +59,9 @@ pub const NAMED: [&str; 2] = [DRAGS, HEAT];
 /// Section of the oils, which has catalogues like the sections of components.
 pub const LUBRICANTS: &str = "lubricants";
 
+/// Section of the materials of gears, which has catalogues as well.
+pub const MATERIALS: &str = "materials";
+
 /// Name of the schema of a study, under which the crate of studies registers it.
 pub const STUDY: &str = "study";
 
@@ -131,7 +134,7 @@ impl Language {
             (kind.name, other)
         };
         let mut catalogues: BTreeMap<&'static str, LinkedCatalogue> = BTreeMap::new();
-        for section in registry.sections().map(|(_, s)| s.name).chain([LUBRICANTS]) {
+        for section in registry.sections().map(|(_, s)| s.name).chain([LUBRICANTS, MATERIALS]) {
             for catalogue in registry.catalogues(section) {
                 let place = format!("registered at {}", catalogue.origin);
                 match catalogues.entry(section).or_default().add(catalogue.csv) {

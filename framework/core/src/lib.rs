@@ -89,6 +89,7 @@ pub mod hydraulics;
 pub mod immersion;
 pub mod lubricant;
 pub mod machine;
+pub mod material;
 pub mod motor;
 pub mod real;
 pub mod rolling;

@@ -222,6 +222,8 @@ pub struct Entry {
     pub scope: Scope,
     /// False for a mesh model that applies to any pair of gears and does not use the tooth geometry; unused for other mechanisms.
     pub geometry: bool,
+    /// True for a law of friction that holds for plastic flanks, too; unused for other mechanisms.
+    pub plastics: bool,
     /// Where it is registered.
     pub origin: Origin,
     /// Schema of the parameters.
@@ -648,7 +650,7 @@ macro_rules! register {
         source: $source:expr, example: $example:expr, $(part: $part:expr,)? $(files: [$($file:expr),* $(,)?],)?
         evidence: [$($graded:expr),* $(,)?] $(, checks: [$($check:expr),* $(,)?])?
         $(, limits: [$($limit:expr),* $(,)?])? $(, terms: [$($term:expr),* $(,)?])? $(, observed: [$($observed:expr),* $(,)?])?
-        $(, scope: $scope:expr)? $(, geometry: $geometry:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
+        $(, scope: $scope:expr)? $(, geometry: $geometry:expr)? $(, plastics: $plastics:expr)? $(, prepare: $prepare:expr)? $(,)?) => {
         $crate::registry::submit! {
             $crate::registry::Entry {
                 mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, source: $source, example: $example, part: $crate::register!(@part $($part)?), files: &[$($($file),*)?], evidence: &[$($graded),*],
@@ -656,6 +658,7 @@ macro_rules! register {
                 checks: &[$($($check),*)?],
                 scope: $crate::register!(@scope $($scope)?),
                 geometry: $crate::register!(@geometry $($geometry)?),
+                plastics: $crate::register!(@plastics $($plastics)?),
                 origin: $crate::origin!(),
                 schema: |generator| <$Params as $crate::schemars::JsonSchema>::json_schema(generator),
                 build: |value, cx| {
@@ -671,6 +674,8 @@ macro_rules! register {
     (@part $part:expr) => { Some($part) };
     (@scope) => { $crate::mechanism::gear_drag::Scope::Gear };
     (@scope $scope:expr) => { $scope };
+    (@plastics) => { false };
+    (@plastics $plastics:expr) => { $plastics };
     (@geometry) => { true };
     (@geometry $geometry:expr) => { $geometry };
     (@model $params:ident, $cx:ident) => { $params };

@@ -11,6 +11,7 @@ mod drags;
 mod gearing;
 mod grease;
 mod inside;
+mod materials;
 mod members;
 mod nodes;
 mod oil_network;

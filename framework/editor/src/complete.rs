@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use gearloss_document::{Unit, number_length};
-use gearloss_framework::language::LUBRICANTS;
+use gearloss_framework::language::{LUBRICANTS, MATERIALS};
 use gearloss_framework::registry::{Files, ShippedCycle, inventory};
 use gearloss_framework::resolve::{CatalogueRow, CatalogueTable};
 use serde::Serialize;
@@ -149,7 +149,10 @@ impl Completer<'_, '_> {
         }
         if place.has_ids() && self.cursor.steps == [Step::Key("catalogues".to_owned())] {
             let language = self.workspace.language;
-            let sections = language.sections().map(|(section, _)| section).chain([LUBRICANTS]);
+            let sections = language
+                .sections()
+                .map(|(section, _)| section)
+                .chain([LUBRICANTS, MATERIALS]);
             for section in sections.filter(|section| language.catalogue(section).is_some()) {
                 if !written(section) {
                     self.push(

@@ -4,6 +4,7 @@ mod bearings;
 mod fields;
 mod followed;
 mod layouts;
+mod materials;
 mod ratios;
 mod study;
 mod written;

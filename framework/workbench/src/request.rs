@@ -185,6 +185,8 @@ pub enum CatalogueOf {
     Bearings,
     /// Oils.
     Oils,
+    /// Materials of gears.
+    Materials,
 }
 
 /// Quantity of an input.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use gearloss_editor::{Answer as EditAnswer, Request as EditRequest, Workspace};
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::gearbox::Gearbox;
-use gearloss_framework::language::{LUBRICANTS, Language};
+use gearloss_framework::language::{LUBRICANTS, Language, MATERIALS};
 use gearloss_framework::resolve::CatalogueRow;
 use gearloss_studies::analyses::progress::Progress;
 use serde_json::{Value, json};
@@ -163,6 +163,7 @@ impl<'l> Session<'l> {
         let section = match of {
             CatalogueOf::Bearings => "bearings",
             CatalogueOf::Oils => LUBRICANTS,
+            CatalogueOf::Materials => MATERIALS,
         };
         let found = self
             .language

@@ -9,6 +9,7 @@
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
+use gearloss_framework::material::{Conductor, FAST};
 use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{limits, register};
@@ -16,7 +17,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{STEEL, of_gear};
-use crate::tooth_friction::ehl_mixed::temperature::{FAST, Flank};
 
 limits! { PECLET = ("Pe", "Péclet number of the contact", "-", FAST, f64::INFINITY, "fast bands of contact, derived"); }
 /// Sine of a pressure angle of 20 deg.
@@ -67,6 +67,32 @@ pub struct Params {
     #[serde(default = "heat_capacity")]
     #[schemars(range(min = 100.0, max = 3000.0))]
     pub heat_capacity: f64,
+    /// The flanks of the other gear, if they are of another material.
+    pub mate: Option<Mate>,
+}
+
+/// Thermal properties of the other flank.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+pub struct Mate {
+    /// Thermal conductivity. [W/(m K)]
+    #[schemars(range(min = 0.05, max = 500.0))]
+    pub conductivity: f64,
+    /// Density. [kg/m3]
+    #[schemars(range(min = 500.0, max = 20000.0))]
+    pub density: f64,
+    /// Specific heat. [J/(kg K)]
+    #[schemars(range(min = 100.0, max = 5000.0))]
+    pub heat_capacity: f64,
+}
+
+impl Mate {
+    fn conductor(self) -> Conductor {
+        Conductor {
+            conductivity: self.conductivity,
+            density: self.density,
+            heat_capacity: self.heat_capacity,
+        }
+    }
 }
 
 fn pairs() -> f64 {
@@ -83,7 +109,7 @@ fn heat_capacity() -> f64 {
 }
 
 struct Teeth {
-    flank: Flank,
+    flanks: [Conductor; 2],
     half_width: f64,
     length: f64,
     radius: f64,
@@ -92,12 +118,13 @@ struct Teeth {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Teeth, Diagnostic> {
+    let flank = Conductor {
+        conductivity: params.conductivity,
+        density: params.density,
+        heat_capacity: params.heat_capacity,
+    };
     Ok(Teeth {
-        flank: Flank {
-            conductivity: params.conductivity,
-            density: params.density,
-            heat_capacity: params.heat_capacity,
-        },
+        flanks: [flank, params.mate.map_or(flank, Mate::conductor)],
         half_width: params.half_width,
         length: of_gear(
             params.length,
@@ -124,9 +151,14 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Teeth, Diagnostic> {
 impl HeatLinkModel for Teeth {
     fn conductance(&self, at: &HeatLinkAt<'_>) -> Result<f64, Undefined> {
         let speed = at.show("U", "m/s", at.speed * self.radius);
-        at.check(&PECLET, self.flank.peclet(self.half_width, speed));
+        let [first, second] = &self.flanks;
+        let slowest = first
+            .peclet(self.half_width, speed)
+            .min(second.peclet(self.half_width, speed));
+        at.check(&PECLET, slowest);
         // Both flanks have about the same rolling speed, exactly the same at the pitch point.
-        let pair = 2.0 * self.factor * self.flank.resistance(self.half_width, self.length, speed);
+        let of = |flank: &Conductor| flank.resistance(self.half_width, self.length, speed);
+        let pair = self.factor * (of(first) + of(second));
         at.show("R", "K/W", pair);
         Ok(at.show("G", "W/K", self.contact_ratio / pair))
     }
@@ -164,6 +196,7 @@ mod tests {
             conductivity: STEEL,
             density: 7800.0,
             heat_capacity: 470.0,
+            mate: None,
         }
     }
 

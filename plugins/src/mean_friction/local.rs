@@ -131,4 +131,4 @@ register!(MeanFriction, "local", Params,
         default_of("at", Evidence::Derived, "the average preserves the loss"),
         default_of("load_sharing", Evidence::Assumed, "rigid teeth"),
     ],
-    observed: [MU], prepare: prepare);
+    observed: [MU], plastics: true, prepare: prepare);

@@ -118,7 +118,11 @@ impl<'a> Bodies<'a> {
 
     /// Heat capacity of a gear. \[J/K\]
     pub fn capacity(&self, gear: &str) -> f64 {
-        self.size(gear).map_or(0.0, Size::volume) * Metal::STEEL.heat_capacity()
+        let written = self.entry.gears.get(gear).and_then(|gear| gear.material.as_deref());
+        let material = written.and_then(|name| self.entry.materials.get(name));
+        let thermal = material.and_then(|material| material.material().ok()?.thermal);
+        let per_volume = thermal.map_or(Metal::STEEL.heat_capacity(), |own| own.density * own.heat_capacity);
+        self.size(gear).map_or(0.0, Size::volume) * per_volume
     }
 
     /// Heat capacity of a shaft without gears: from its sections, else of a bar between its outermost bearings and gears with the

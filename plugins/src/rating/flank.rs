@@ -41,6 +41,11 @@ impl RatedPath {
         self.paths[0].points()
     }
 
+    /// Whether the flank of the first gear is the faster one at a point.
+    pub fn first_faster(&self, point: usize) -> bool {
+        self.paths[0].nodes()[point].first_faster
+    }
+
     /// Line load at a point over that of one pair alone, under a line load of the mesh in N/m.
     pub fn line(&self, point: usize, line_load: f64) -> f64 {
         match &self.paths[..] {

@@ -6,6 +6,7 @@
 //! permissible value is that of a test of the oil and must be stated.
 //! These are indicators, not safety factors of ISO 6336: without load distribution factors, profile modifications and the roughness term of
 //! the standards, and with the viscosity of the oil, not of the warmer flank. Pitting and bending strength are not rated.
+//! With a plastic gear the pressure hardly raises the viscosity, which these films suppose: they are then omitted.
 
 use gearloss_framework::contact::sharing::{Sharing, SharingEntry};
 use gearloss_framework::contact::{Film, film};
@@ -50,7 +51,7 @@ pub struct FlankContact {
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub least_film_ratio: f64,
-    /// Hertzian pressure above which the mesh is reported; default: never. [MPa]
+    /// Hertzian pressure above which the mesh is reported; default: the least `permissible_pressure` of the gears' materials. [MPa]
     #[schemars(range(min = 0.0, max = 10000.0))]
     pub greatest_pressure: Option<f64>,
     /// Permissible film over arithmetic mean roughness, from a micropitting test of the oil; without it there is no indicator. [-]
@@ -123,12 +124,25 @@ impl Prepared {
         let line_load = whole * share;
         let at_pitch = hertz(line_load, mean.part.modulus, mean.radius);
         to.add(&AT_PITCH, at.show("p_HC", "MPa", at_pitch * 1e-6));
+        let permissible = at
+            .part
+            .gears
+            .iter()
+            .filter_map(|material| material.permissible_pressure);
+        let least = permissible.fold(None, |least: Option<f64>, own| {
+            Some(least.map_or(own, |least| least.min(own)))
+        });
         let bound = params
             .greatest_pressure
+            .or(least)
             .map_or(Bound::NONE, |bound| Bound::at_most(bound * 1e-6));
         to.add_bounded(&PRESSURE, at.show("p_H", "MPa", pressure * 1e-6), bound);
         if at.speed == 0.0 {
             at.branch("no speed: no film");
+            return;
+        }
+        if at.part.plastic().is_some() {
+            at.branch("a plastic gear: the film formulas hold for metal flanks");
             return;
         }
         to.add(&FILM, at.show("h_min", "um", thinnest.um()));

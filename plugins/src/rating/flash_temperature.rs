@@ -1,7 +1,7 @@
 //! Flash and contact temperature of gear flanks according to Blok.
 //!
 //! Sources: Blok 1937: maximum rise 1.11 mu w |sqrt(v1) - sqrt(v2)|/(B_M sqrt(2 b_H)) over a Hertzian band of contact between flanks of one
-//! material; textbooks print the equal forms 0.62 mu w^(3/4) (E'/rho)^(1/4) and 2.45 mu p_H^(3/2) (rho/E')^(1/2). B_M = sqrt(k rho c) is
+//! material, of two |v1 - v2|/(B_M1 sqrt(v1) + B_M2 sqrt(v2)) in place of the difference over B_M; textbooks print the equal forms 0.62 mu w^(3/4) (E'/rho)^(1/4) and 2.45 mu p_H^(3/2) (rho/E')^(1/2). B_M = sqrt(k rho c) is
 //! 13.6 N/(mm s^0.5 K) for martensitic steels. The bulk temperature is that of the thermal network, else the oil temperature plus 0.47 times
 //! the mean rise along the path, as ISO/TS 6336-20 estimates it for dip lubrication (1.2 times as much for injection).
 //! Friction is a mean law for the whole path; the default is intended for scuffing.
@@ -11,6 +11,7 @@
 use gearloss_framework::contact::sharing::SharingEntry;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
+use gearloss_framework::material::Conductor;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt};
 use gearloss_framework::mechanism::mean_friction::{MeanFriction, MeanFrictionAt};
 use gearloss_framework::rating::{Bound, Figure, Rated, Rating};
@@ -21,8 +22,9 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::flank::{self, RatedPath};
+use crate::flank_heat::flanks;
 use crate::tooth_friction::ehl_mixed::contact::Contact;
-use crate::tooth_friction::ehl_mixed::temperature::{Flank, blok};
+use crate::tooth_friction::ehl_mixed::temperature::blok;
 
 const FLASH: Figure = Figure::greatest("theta_fl", "K", "maximum flash temperature");
 const BULK: Figure = Figure::greatest("theta_M", "degC", "bulk temperature").detail();
@@ -42,18 +44,15 @@ pub struct FlashTemperature {
     #[serde(default = "bulk_factor")]
     #[schemars(range(min = 0.0, max = 5.0))]
     pub bulk_factor: f64,
-    /// Thermal conductivity of the flanks. [W/(m K)]
-    #[serde(default = "conductivity")]
+    /// Thermal conductivity of both flanks; default: that of the gears' materials, else 48.7. [W/(m K)]
     #[schemars(range(min = 0.1, max = 500.0))]
-    pub conductivity: f64,
-    /// Density of the flanks. [kg/m3]
-    #[serde(default = "density")]
+    pub conductivity: Option<f64>,
+    /// Density of both flanks; default: that of the gears' materials, else 7800. [kg/m3]
     #[schemars(range(min = 500.0, max = 25000.0))]
-    pub density: f64,
-    /// Specific heat of the flanks. [J/(kg K)]
-    #[serde(default = "heat_capacity")]
+    pub density: Option<f64>,
+    /// Specific heat of both flanks; default: that of the gears' materials, else 487. [J/(kg K)]
     #[schemars(range(min = 50.0, max = 5000.0))]
-    pub heat_capacity: f64,
+    pub heat_capacity: Option<f64>,
     /// Scuffing temperature of the oil, from a test; without it there is no indicator. [degC]
     #[schemars(range(min = 0.0, max = 1500.0))]
     pub scuffing_temperature: Option<f64>,
@@ -67,18 +66,12 @@ fn bulk_factor() -> f64 {
     0.47
 }
 
-/// With the density and the specific heat, `B_M` is 13.6 N/(mm s^0.5 K).
-fn conductivity() -> f64 {
-    48.7
-}
-
-fn density() -> f64 {
-    7800.0
-}
-
-fn heat_capacity() -> f64 {
-    487.0
-}
+/// The steel of gears that name no material; its `B_M` is 13.6 N/(mm s^0.5 K).
+const STEEL: Conductor = Conductor {
+    conductivity: 48.7,
+    density: 7800.0,
+    heat_capacity: 487.0,
+};
 
 fn one() -> f64 {
     1.0
@@ -89,6 +82,8 @@ struct Prepared {
     params: FlashTemperature,
     path: Option<RatedPath>,
     friction: Slot<MeanFriction>,
+    /// `None` if those of a plastic are not known.
+    flanks: Option<[Conductor; 2]>,
 }
 
 fn prepare(params: FlashTemperature, cx: &mut Build<'_>) -> Result<Prepared, Diagnostic> {
@@ -99,6 +94,13 @@ fn prepare(params: FlashTemperature, cx: &mut Build<'_>) -> Result<Prepared, Dia
     let sharing = cx.load_sharing(&part, &params.load_sharing)?;
     Ok(Prepared {
         path: RatedPath::new(&part.pair, &sharing),
+        flanks: flanks(
+            [params.conductivity, params.density, params.heat_capacity],
+            STEEL,
+            &part,
+            cx,
+        )
+        .ok(),
         friction,
         params,
     })
@@ -114,17 +116,17 @@ impl Rating<GearMesh> for Prepared {
             at.branch("no torque or no speed");
             return Ok(());
         }
+        let Some(flanks) = &self.flanks else {
+            at.branch("the thermal properties of a plastic gear are not known: state those of its material");
+            return Ok(());
+        };
         let params = &self.params;
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes.nested(self.friction.notes));
         let mu = at.show("mu", "-", self.friction.mu(&mean)?);
-        let flank = Flank {
-            conductivity: params.conductivity,
-            density: params.density,
-            heat_capacity: params.heat_capacity,
-        };
         let (mut greatest, mut sum, mut length) = (0.0_f64, 0.0, 0.0);
         flank::contacts(path, at, &mean, |i, contact| {
-            let speeds = [1.0, -1.0].map(|side| 0.5 * (contact.sum_speed + side * contact.sliding).max(0.0));
+            let first_faster = path.first_faster(i);
+            let speeds = Contact::speeds(contact.sliding, contact.sum_speed, first_faster);
             let place = Contact::new(
                 contact.line_load,
                 contact.radius,
@@ -132,7 +134,7 @@ impl Rating<GearMesh> for Prepared {
                 contact.length,
                 speeds,
             );
-            let rise = blok(mu, &place, &flank);
+            let rise = blok(mu, &place, flanks);
             greatest = greatest.max(rise);
             let weight = path.points()[i].weight;
             sum += weight * rise;
@@ -192,14 +194,14 @@ mod tests {
     #[test]
     fn the_printed_forms_of_blok_are_equal() {
         let (mu, load, radius, modulus, speeds) = (0.06, 3e5, 0.01, 226.4e9, [12.0, 5.0]);
-        let steel = Flank {
-            conductivity: conductivity(),
-            density: density(),
-            heat_capacity: heat_capacity(),
-        };
-        let effusivity = (steel.conductivity * steel.density * steel.heat_capacity).sqrt();
+        let effusivity = STEEL.effusivity();
         assert_close(effusivity, 13_600.0, 1e-3);
-        let one = blok(mu, &Contact::new(load, radius, modulus, 0.02, speeds), &steel);
+        let contact = Contact::new(load, radius, modulus, 0.02, speeds);
+        let one = blok(mu, &contact, &[STEEL; 2]);
+        // The form for two materials is the same of one.
+        let mut nearly = STEEL;
+        nearly.density *= 1.0 + 1e-12;
+        assert_close(blok(mu, &contact, &[STEEL, nearly]), one, 1e-9);
         let slid = mu * (speeds[0].sqrt() - speeds[1].sqrt()) / effusivity;
         assert_close(
             0.62 * load.powf(0.75) * (modulus / radius).powf(0.25) * slid,

@@ -39,6 +39,7 @@ use std::sync::Arc;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Notes, Observed, Undefined};
+use gearloss_framework::material::{Conductor, FAST};
 use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, MeshPart};
 use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
@@ -48,13 +49,14 @@ use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::flank_heat::flanks;
 use crate::rotating::Body;
 use contact::Contact;
 use film::{Factor, Film, InletHeating};
 use march::{March, Solved, Tally, Warming, Warmth};
 use oil::{MeshFluid, Oil, Supplied, Written};
 use place::{Bodies, Conditions, Laws, Place, Settled, first_slope};
-use temperature::{FAST, FilmHeat, Flank};
+use temperature::FilmHeat;
 use traction::Transit;
 
 limits! {
@@ -118,18 +120,15 @@ pub struct Params {
     #[serde(default = "two")]
     #[schemars(range(min = 0.1, max = 10.0))]
     pub exponent: f64,
-    /// Thermal conductivity of the flanks. [W/(m K)]
-    #[serde(default = "steel_conductivity")]
+    /// Thermal conductivity of both flanks; default: that of the gears' materials, else 46. [W/(m K)]
     #[schemars(range(min = 0.1, max = 500.0))]
-    pub flank_conductivity: f64,
-    /// Density of the flanks. [kg/m3]
-    #[serde(default = "steel_density")]
+    pub flank_conductivity: Option<f64>,
+    /// Density of both flanks; default: that of the gears' materials, else 7800. [kg/m3]
     #[schemars(range(min = 500.0, max = 20000.0))]
-    pub flank_density: f64,
-    /// Specific heat of the flanks. [J/(kg K)]
-    #[serde(default = "steel_heat_capacity")]
+    pub flank_density: Option<f64>,
+    /// Specific heat of both flanks; default: that of the gears' materials, else 470. [J/(kg K)]
     #[schemars(range(min = 100.0, max = 3000.0))]
-    pub flank_heat_capacity: f64,
+    pub flank_heat_capacity: Option<f64>,
     /// Eyring stress; default: that of the oil. [MPa]
     #[schemars(range(min = 0.1, max = 50.0))]
     pub tau0: Option<f64>,
@@ -160,15 +159,12 @@ fn hub() -> f64 {
 fn two() -> f64 {
     2.0
 }
-fn steel_conductivity() -> f64 {
-    46.0
-}
-fn steel_density() -> f64 {
-    7800.0
-}
-fn steel_heat_capacity() -> f64 {
-    470.0
-}
+/// The steel of gears that name no material.
+const STEEL: Conductor = Conductor {
+    conductivity: 46.0,
+    density: 7800.0,
+    heat_capacity: 470.0,
+};
 
 /// The model, prepared.
 pub struct EhlMixed {
@@ -214,6 +210,11 @@ impl EhlMixed {
             shear_modulus: params.shear_modulus,
             mu_b: params.mu_b,
         };
+        let stated = [
+            params.flank_conductivity,
+            params.flank_density,
+            params.flank_heat_capacity,
+        ];
         Ok(Self {
             laws: Laws {
                 film: params.film,
@@ -221,11 +222,7 @@ impl EhlMixed {
                 transit: params.transit,
                 film_heat: params.film_heat,
                 exponent: params.exponent,
-                flank: Flank {
-                    conductivity: params.flank_conductivity,
-                    density: params.flank_density,
-                    heat_capacity: params.flank_heat_capacity,
-                },
+                flanks: flanks(stated, STEEL, &part, cx)?,
                 thermal: params.thermal,
             },
             fluid: MeshFluid::new(written, part.oil.as_ref(), cx)?,

@@ -77,4 +77,4 @@ register!(ToothFriction, "mean", Params,
     source: "definition: one coefficient for the whole mesh",
     example: "{ type: mean, mean_friction: { type: schlenk } }",
     evidence: [formula(Evidence::Derived, "the evidence is that of the mean friction law")],
-    prepare: prepare);
+    plastics: true, prepare: prepare);

@@ -31,11 +31,11 @@ pub struct BevelMeshEntry {
     /// Distances of the mean points of pinion and wheel from the crossing point of the axes, along their axes; only compared. [mm]
     #[schemars(inner(range(min = -1e4, max = 1e4)))]
     pub mounting_distance: Option<[f64; 2]>,
-    /// Young's modulus of both gears. [GPa]
+    /// Young's modulus of the gears that name no `material`. [GPa]
     #[serde(default = "crate::mechanism::gear_mesh::steel")]
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub elastic_modulus: f64,
-    /// Poisson's ratio of both gears. [-]
+    /// Poisson's ratio of the gears that name no `material`. [-]
     #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
     #[schemars(range(min = 0.0, max = 0.49))]
     pub poisson: f64,
@@ -199,9 +199,8 @@ pub struct WormMeshEntry {
     /// Profile of the threads.
     #[serde(default)]
     pub profile: WormProfile,
-    /// Material of the rim of the wheel.
-    #[serde(default)]
-    pub material: WheelMaterial,
+    /// Material of the rim of the wheel; default: the `worm_wheel` of its `material`, else tin bronze CuSn12.
+    pub material: Option<WheelMaterial>,
     /// How oil comes to the mesh.
     #[serde(default)]
     pub lubrication: WormLubrication,
@@ -240,11 +239,11 @@ pub struct CrossedHelicalMeshEntry {
     /// Helix angles of both gears. Of equal hands they add up to the angle between the axes, else their difference is that angle. [deg]
     #[schemars(inner(range(min = 0.0, max = 85.0)))]
     pub helix_angle: [f64; 2],
-    /// Young's modulus of both gears. [GPa]
+    /// Young's modulus of the gears that name no `material`. [GPa]
     #[serde(default = "crate::mechanism::gear_mesh::steel")]
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub elastic_modulus: f64,
-    /// Poisson's ratio of both gears. [-]
+    /// Poisson's ratio of the gears that name no `material`. [-]
     #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
     #[schemars(range(min = 0.0, max = 0.49))]
     pub poisson: f64,

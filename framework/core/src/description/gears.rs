@@ -60,6 +60,9 @@ pub struct GearEntry {
     pub root_diameter: Option<f64>,
     /// Flanks; default: those of the gearbox.
     pub surface: Option<Surface>,
+    /// Material: a name of `materials`, or a designation of the catalogue. Default: that of its mesh.
+    #[schemars(extend("x-refers-to" = "materials"))]
+    pub material: Option<String>,
     /// Reliefs, crowning and slopes of the flanks of a cylindrical gear, for `load_sharing: { type: slices }`.
     pub modification: Option<FlankModification>,
     /// Oil height above the gear's axis, if it runs in a separate oil pocket. [mm]
@@ -160,11 +163,11 @@ pub struct MeshEntry {
     /// Double-helical gears: the axial forces of both halves cancel.
     #[serde(default)]
     pub double_helical: bool,
-    /// Young's modulus of both gears. [GPa]
+    /// Young's modulus of the gears that name no `material`. [GPa]
     #[serde(default = "crate::mechanism::gear_mesh::steel")]
     #[schemars(range(min = 0.1, max = 1000.0))]
     pub elastic_modulus: f64,
-    /// Poisson's ratio of both gears. [-]
+    /// Poisson's ratio of the gears that name no `material`. [-]
     #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
     #[schemars(range(min = 0.0, max = 0.49))]
     pub poisson: f64,

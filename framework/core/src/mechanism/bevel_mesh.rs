@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::description::{BevelAxes, BevelPair, BevelTeeth};
 use crate::loss::{Loss, Term, Undefined};
+use crate::material::Material;
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshOil, MeshPart, steel, steel_poisson};
 use crate::mechanism::mesh_law::mesh_laws;
@@ -78,10 +79,8 @@ pub struct FlankSurfaces {
     pub ra: [f64; 2],
     /// Root mean square roughness. \[m\]
     pub rq: [f64; 2],
-    /// Young's modulus of both. \[Pa\]
-    pub elastic_modulus: f64,
-    /// Poisson's ratio of both.
-    pub poisson: f64,
+    /// Materials.
+    pub materials: [Material; 2],
 }
 
 /// A bevel or hypoid pair, complete.
@@ -98,13 +97,8 @@ impl BevelPart {
     /// A pair with its surfaces, and the oil of the mesh.
     pub fn new(pair: BevelPair, surfaces: FlankSurfaces, oil: Option<&MeshOil>) -> Self {
         let flanks = pair.flanks.map(|flanks| {
-            let FlankSurfaces {
-                ra,
-                rq,
-                elastic_modulus,
-                poisson,
-            } = surfaces;
-            MeshPart::new(flanks, ra, rq, elastic_modulus, poisson).with_oil(oil.cloned())
+            let FlankSurfaces { ra, rq, materials } = surfaces;
+            MeshPart::of_materials(flanks, ra, rq, materials).with_oil(oil.cloned())
         });
         Self { pair, flanks }
     }
@@ -137,8 +131,7 @@ impl TryFrom<BevelEntry> for BevelPart {
         let surfaces = FlankSurfaces {
             ra: entry.ra,
             rq: entry.rq,
-            elastic_modulus: entry.elastic_modulus,
-            poisson: entry.poisson,
+            materials: [Material::metal(entry.elastic_modulus, entry.poisson); 2],
         };
         Ok(Self::new(pair, surfaces, None))
     }

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Pair;
 use crate::geometry::crossed::{PitchCones, TeethFault};
 use crate::loss::{Loss, Term};
+use crate::material::{Material, reduced_modulus};
 use crate::mechanism::Mechanism;
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart, steel, steel_poisson};
 use crate::mechanism::mesh_law::mesh_laws;
@@ -81,7 +82,7 @@ pub struct CrossedHelicalPart {
 }
 
 impl CrossedHelicalPart {
-    /// A pair with its cylinders, normal pressure angle and tip radii; roughness Ra and Rq of both flanks, Young's modulus and Poisson's ratio. SI.
+    /// A pair with its cylinders, normal pressure angle and tip radii; roughness Ra and Rq of both flanks, and materials. SI.
     ///
     /// # Errors
     /// All faults that make the teeth impossible.
@@ -89,14 +90,14 @@ impl CrossedHelicalPart {
         cylinders: &PitchCones,
         (pressure_angle, tip_radius): (f64, [f64; 2]),
         [ra, rq]: [[f64; 2]; 2],
-        (elastic_modulus, poisson): (f64, f64),
+        materials: [Material; 2],
     ) -> Result<Self, Vec<TeethFault>> {
-        let modulus = elastic_modulus / (1.0 - poisson * poisson);
+        let modulus = reduced_modulus(materials.map(|material| material.elastic));
         let pair = Pair::crossed_helical(cylinders, pressure_angle, tip_radius, modulus)?;
         let motion = pair.crossed.as_ref();
         let at_pitch = motion.map_or([0.0; 2], |motion| [motion.sliding_speed(0.0), motion.friction_arm(0.0)]);
         Ok(Self {
-            flanks: MeshPart::new(pair, ra, rq, elastic_modulus, poisson),
+            flanks: MeshPart::of_materials(pair, ra, rq, materials),
             at_pitch,
         })
     }
@@ -131,7 +132,7 @@ impl TryFrom<CrossedHelicalEntry> for CrossedHelicalPart {
             &cylinders,
             (entry.pressure_angle, tips),
             [entry.ra, entry.rq],
-            (entry.elastic_modulus, entry.poisson),
+            [Material::metal(entry.elastic_modulus, entry.poisson); 2],
         )
         .map_err(|faults| faults.iter().map(TeethFault::to_string).collect::<Vec<_>>().join("; "))
     }

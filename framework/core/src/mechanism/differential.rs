@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::description::crossed::{DepthEntry, FlankAngles, SpiralAngleOf};
 use crate::description::{BevelAxes, BevelTeeth};
 use crate::loss::{Loss, Notes, Term, Undefined};
+use crate::material::Material;
 use crate::mechanism::bevel_mesh::{BevelMeshAt, BevelPart, FlankSurfaces};
 use crate::mechanism::gear_mesh::{steel, steel_poisson};
 use crate::mechanism::{Answers, Mechanism, Scalar};
@@ -153,8 +154,7 @@ impl DifferentialGears {
             ra: [teeth.ra; 2],
             // As of gears that state none.
             rq: [1.25 * teeth.ra; 2],
-            elastic_modulus: steel(),
-            poisson: steel_poisson(),
+            materials: [Material::metal(steel(), steel_poisson()); 2],
         };
         Ok(BevelPart::new(pair, surfaces, None))
     }

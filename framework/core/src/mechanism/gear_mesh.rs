@@ -6,11 +6,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::sharing::modification::FlankModification;
-use crate::contact::sharing::stiffness::Elastic;
+use crate::description::MaterialEntry;
 use crate::description::shift_sign::ShiftSign;
 use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::loss::{Loss, Term, Undefined};
 use crate::lubricant::Lubricant;
+use crate::material::{Elastic, Material, reduced_modulus};
 use crate::mechanism::Mechanism;
 use crate::mechanism::mesh_law::mesh_laws;
 use crate::real::{Mask as _, Real};
@@ -78,12 +79,23 @@ pub struct PairEntry {
     #[serde(default = "steel_poisson")]
     #[schemars(range(min = 0.0, max = 0.49))]
     pub poisson: f64,
+    /// Materials of both gears instead of one modulus, with all values that are needed.
+    pub materials: Option<[MaterialEntry; 2]>,
     /// Modifications of the flanks of both gears, for load sharing in thin slices.
     pub modification: Option<[FlankModification; 2]>,
     /// Misalignment of the flanks over the face width, positive if the end of the face opens. [um]
     #[serde(default)]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub misalignment: f64,
+}
+
+/// The materials of a pair that is written for a single model.
+///
+/// # Errors
+/// Values that are missing, as a sentence.
+fn materials_of_pair([first, second]: &[MaterialEntry; 2]) -> Result<[Material; 2], String> {
+    let read = |entry: &MaterialEntry| entry.material().map_err(|(key, fault)| format!("`{key}`: {fault}"));
+    Ok([read(first)?, read(second)?])
 }
 
 /// Young's modulus of steel. \[Pa\]
@@ -106,10 +118,12 @@ pub struct MeshPart {
     pub ra: f64,
     /// Composite root mean square roughness of both flanks. \[m\]
     pub rq: f64,
-    /// Reduced modulus E/(1 - nu^2). \[Pa\]
+    /// Reduced modulus, 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. \[Pa\]
     pub modulus: f64,
     /// Elastic constants of both gears.
     pub materials: [Elastic; 2],
+    /// Materials of both gears, with these constants.
+    pub gears: [Material; 2],
     /// Modifications of the flanks of both gears.
     pub flanks: [FlankModification; 2],
     /// Misalignment of the flanks over the face width, positive if the end of the face opens. \[m\]
@@ -137,19 +151,28 @@ impl PartialEq for MeshOil {
 impl MeshPart {
     /// A pair with its computed geometry, from roughness of both flanks (m), Young's modulus (Pa) and Poisson's ratio.
     pub fn new(pair: Pair, ra: [f64; 2], rq: [f64; 2], elastic_modulus: f64, poisson: f64) -> Self {
+        Self::of_materials(pair, ra, rq, [Material::metal(elastic_modulus, poisson); 2])
+    }
+
+    /// A pair with its computed geometry, from roughness (m) and materials of both gears.
+    pub fn of_materials(pair: Pair, ra: [f64; 2], rq: [f64; 2], materials: [Material; 2]) -> Self {
+        let elastic = materials.map(|material| material.elastic);
         Self {
             pair,
             ra: 0.5 * (ra[0] + ra[1]),
             rq: rq[0].hypot(rq[1]),
-            modulus: elastic_modulus / (1.0 - poisson * poisson),
-            materials: [Elastic {
-                modulus: elastic_modulus,
-                poisson,
-            }; 2],
+            modulus: reduced_modulus(elastic),
+            materials: elastic,
+            gears: materials,
             flanks: [FlankModification::default(); 2],
             misalignment: 0.0,
             oil: None,
         }
+    }
+
+    /// The first plastic of both gears.
+    pub fn plastic(&self) -> Option<&Material> {
+        self.gears.iter().find(|material| material.kind.is_plastic())
     }
 
     /// The pair with modified flanks and a misalignment over the face width. \[m\]
@@ -233,7 +256,11 @@ impl TryFrom<PairEntry> for MeshPart {
         })
         .map_err(|faults| faults.iter().map(PairFault::to_string).collect::<Vec<_>>().join("; "))?;
         let flanks = entry.modification.unwrap_or_default();
-        let part = Self::new(pair, entry.ra, entry.rq, entry.elastic_modulus, entry.poisson);
+        let materials = match &entry.materials {
+            Some(materials) => materials_of_pair(materials)?,
+            None => [Material::metal(entry.elastic_modulus, entry.poisson); 2],
+        };
+        let part = Self::of_materials(pair, entry.ra, entry.rq, materials);
         Ok(part.with_flanks(flanks, entry.misalignment))
     }
 }

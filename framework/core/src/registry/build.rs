@@ -16,7 +16,9 @@ use crate::document::{Diagnostic, did_you_mean};
 use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
 use crate::loss::{NoteBase, Term};
 use crate::mechanism::gear_drag::{GearDrag, Scope};
-use crate::mechanism::gear_mesh::MeshPart;
+use crate::mechanism::gear_mesh::{GearMesh, MeshPart};
+use crate::mechanism::mean_friction::MeanFriction;
+use crate::mechanism::tooth_friction::ToothFriction;
 use crate::mechanism::{Mechanism, ModelRef, Slot};
 use crate::rating::{Rating, RatingSlot};
 
@@ -523,10 +525,26 @@ impl<'a> Build<'a> {
         let built = (entry.build)(value, self);
         self.around = outer;
         let built = built?;
+        if [MeanFriction::KEY, ToothFriction::KEY].contains(&M::KEY) && !entry.plastics {
+            self.doubt_metal_law(name);
+        }
         match built.downcast::<Arc<M::Model>>() {
             Ok(model) => Ok(Slot::new(*model, notes.until(self.cells), name == "none")),
             Err(_) => Err(self.error(format!("bug: model `{name}` was built for another mechanism"))),
         }
+    }
+
+    /// Doubts a law of friction between metal flanks, if a gear of the mesh is of plastic.
+    fn doubt_metal_law(&mut self, name: &str) {
+        let plastic = self.part::<GearMesh>().and_then(MeshPart::plastic);
+        let Some(kind) = plastic.map(|material| material.kind.name()) else {
+            return;
+        };
+        let message = format!("`{name}` is a law of metal flanks, and a gear of this mesh is of {kind}");
+        let warning = Diagnostic::warning("", message)
+            .code(codes::METAL_LAW)
+            .help("choose a law for plastics: `gearloss models mean_friction` lists them, or state a `constant`");
+        self.doubt("type", warning);
     }
 
     /// Number of the element of the oil network that a model names.

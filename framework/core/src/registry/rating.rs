@@ -124,7 +124,7 @@ macro_rules! register_rating {
                     mechanism: <$M as $crate::mechanism::Mechanism>::KEY, name: $name, source: $source, example: "{}",
                     part: $crate::register!(@part $($part)?), files: &[], evidence: &[$($graded),*],
                     limits: &[$($($limit),*)?], terms: &[], observed: &[], checks: &[$($($check),*)?],
-                    scope: $crate::mechanism::gear_drag::Scope::Gear, geometry: true,
+                    scope: $crate::mechanism::gear_drag::Scope::Gear, geometry: true, plastics: true,
                     origin: $crate::origin!(),
                     schema: |generator| <$Params as $crate::schemars::JsonSchema>::json_schema(generator),
                     build: |value, cx| {

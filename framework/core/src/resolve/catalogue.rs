@@ -15,7 +15,7 @@ use crate::codes;
 use crate::document::data::TableForm;
 use crate::document::data::cells::{self, FoundColumn};
 use crate::document::{Diagnostic, Dimension, Unit};
-use crate::language::{LUBRICANTS, Language};
+use crate::language::{LUBRICANTS, Language, MATERIALS};
 use crate::maker;
 use crate::mechanism::Component as _;
 use crate::mechanism::bearing::Bearing;
@@ -262,9 +262,13 @@ pub(super) fn fill(
     found: &mut Vec<Diagnostic>,
 ) {
     let of_gearbox = written_catalogues(language, files, value, found);
+    let (linked, written) = (language.linked_catalogue(MATERIALS), of_gearbox.get(MATERIALS));
+    materials_by_designation(value, Known { written, linked }, sources);
     let components = language.registry().sections().map(|(_, s)| (s.name, "bore"));
     // A designation may be just a name, if the required keys are written.
-    let sections: Vec<(&str, &str)> = components.chain([(LUBRICANTS, "viscosity")]).collect();
+    let sections: Vec<(&str, &str)> = components
+        .chain([(LUBRICANTS, "viscosity"), (MATERIALS, "elastic_modulus")])
+        .collect();
     for (section, needed) in sections {
         let (linked, written) = (language.linked_catalogue(section), of_gearbox.get(section));
         for (id, entry) in entries_mut(value, section) {
@@ -300,6 +304,44 @@ pub(super) fn fill(
                 None => {}
             }
         }
+    }
+}
+
+/// Adds the materials that gears name by their designation in a catalogue instead of an entry of their own.
+fn materials_by_designation(value: &mut Value, known: Known<'_>, sources: &mut BTreeMap<String, ValueSource>) {
+    let written = |name: &String| value.get(MATERIALS).is_none_or(|own| own.get(name).is_none());
+    let mut added: BTreeMap<String, String> = BTreeMap::new();
+    for (_, gear) in value.get("gears").and_then(Value::as_object).into_iter().flatten() {
+        let name = gear.get("material").and_then(Value::as_str).map(str::to_owned);
+        if let Some(name) = name
+            .filter(written)
+            .filter(|name| known.designations().any(|row| row == name))
+        {
+            let id = name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+            added.insert(name, id);
+        }
+    }
+    if added.is_empty() {
+        return;
+    }
+    for (_, gear) in entries_mut(value, "gears") {
+        let id = gear
+            .get("material")
+            .and_then(Value::as_str)
+            .and_then(|name| added.get(name));
+        if let Some(id) = id.cloned() {
+            gear.insert("material".to_owned(), Value::from(id));
+        }
+    }
+    let Some(document) = value.as_object_mut() else { return };
+    let materials = document.entry(MATERIALS).or_insert_with(|| Value::Object(Map::new()));
+    let Some(materials) = materials.as_object_mut() else {
+        return;
+    };
+    for (designation, id) in added {
+        let entry = Map::from_iter([("designation".to_owned(), Value::from(designation))]);
+        sources.insert(format!("{MATERIALS}.{id}"), ValueSource::Document);
+        materials.entry(id).or_insert_with(|| Value::Object(entry));
     }
 }
 
@@ -358,12 +400,15 @@ fn written_catalogues(
     for (section, file) in value.get("catalogues").and_then(Value::as_object).into_iter().flatten() {
         let path = format!("catalogues.{section}");
         match CatalogueTable::named(files, file.as_str().unwrap_or_default()) {
-            Ok(table) if section == LUBRICANTS || language.registry().sections().any(|(_, s)| s.name == section) => {
+            Ok(table)
+                if [LUBRICANTS, MATERIALS].contains(&section.as_str())
+                    || language.registry().sections().any(|(_, s)| s.name == section) =>
+            {
                 tables.insert(section.clone(), table);
             }
             Ok(_) => {
                 let sections = language.registry().sections().map(|(_, s)| s.name);
-                let known: Vec<&str> = sections.chain([LUBRICANTS]).collect();
+                let known: Vec<&str> = sections.chain([LUBRICANTS, MATERIALS]).collect();
                 found.push(dangling(&path, "section of components", section, &known));
             }
             Err(reason) => {
@@ -386,10 +431,10 @@ fn unknown_designation(section: &str, id: &str, designation: &str, rows: &[(&str
             rows.len(),
             if section == LUBRICANTS { "oils" } else { section }
         ));
-    let here = if section == LUBRICANTS {
-        "state viscosity, kind and density here"
-    } else {
-        "state bore, outside, kind and ratings here"
+    let here = match section {
+        LUBRICANTS => "state viscosity, kind and density here",
+        MATERIALS => "state elastic_modulus and poisson here",
+        _ => "state bore, outside, kind and ratings here",
     };
     suggest(error, designation, rows, here)
 }

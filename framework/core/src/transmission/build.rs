@@ -5,6 +5,7 @@ use super::drag_models::Drags;
 use super::drags::Covered;
 use super::gearing::gearing;
 use super::grease;
+use super::materials;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
 use super::oil_network::{self, element_paths};
@@ -14,7 +15,7 @@ use super::planet_sharing;
 use super::planets::{self, Held};
 use super::plausible;
 use super::preloads::Preloading;
-use super::seats::{GearSeat, MeshSeat};
+use super::seats::{GearSeat, MeshSeat, materials_of};
 use super::states::{GearState, states};
 use super::statics::{Imported, imported, load_factors, shaft_loads};
 use super::transfers::{self, Transfer, TransferSeat};
@@ -945,7 +946,8 @@ fn mesh_models(
             ..Common::default()
         };
         let oil = oils.oil(&seat.path, &common);
-        let part = MeshPart::new(teeth.pair, seat.ra, seat.rq, written.elastic_modulus, written.poisson);
+        let materials = materials_of(&frame.gears, seat.gears, written.elastic_modulus, written.poisson);
+        let part = MeshPart::of_materials(teeth.pair, seat.ra, seat.rq, materials);
         let flanks = [0, 1].map(|i| {
             frame
                 .entry
@@ -1032,7 +1034,7 @@ fn crossed_model(
         return Ok(None);
     };
     let of_mesh = oils.lubricant(oil);
-    let mut law = bevel_law(seat, entry, of_mesh.clone(), build)?;
+    let mut law = bevel_law(seat, frame, of_mesh.clone(), build)?;
     if law.is_none() {
         law = worm_law(seat, frame, of_mesh.clone(), build)?;
     }
@@ -1065,12 +1067,12 @@ fn crossed_model(
 /// Part and model of a bevel mesh; none of another mesh.
 fn bevel_law(
     seat: &MeshSeat,
-    entry: &GearboxEntry,
+    frame: &Frame,
     oil: Option<MeshOil>,
     build: &mut Build<'_>,
 ) -> Result<Option<KeyedLaw>, Diagnostic> {
     let id = seat.path.strip_prefix("bevel_meshes.");
-    let written = id.and_then(|id| entry.bevel_meshes.get(id));
+    let written = id.and_then(|id| frame.entry.bevel_meshes.get(id));
     let pair = seat.crossed().and_then(|teeth| teeth.bevel_pair());
     let (Some(written), Some(pair)) = (written, pair) else {
         return Ok(None);
@@ -1078,8 +1080,7 @@ fn bevel_law(
     let surfaces = FlankSurfaces {
         ra: seat.ra,
         rq: seat.rq,
-        elastic_modulus: written.elastic_modulus,
-        poisson: written.poisson,
+        materials: materials_of(&frame.gears, seat.gears, written.elastic_modulus, written.poisson),
     };
     let part = build.part_again(&seat.path, BevelPart::new(pair, surfaces, oil.as_ref()));
     let none = ModelRef::<BevelMesh>::new("none".into());
@@ -1105,7 +1106,7 @@ fn worm_law(
     let oil = oil.and_then(|oil| entry.lubricants.get(&oil.id));
     let part = WormPart {
         pair,
-        material: written.material,
+        material: materials::worm_wheel(entry, written),
         ra: seat.ra[0],
         lubrication: written.lubrication,
         oil: oil.and_then(|oil| oil.kind).unwrap_or_default(),
@@ -1135,7 +1136,7 @@ fn crossed_helical_law(
         &teeth.cones,
         (written.pressure_angle, tips),
         [seat.ra, seat.rq],
-        (written.elastic_modulus, written.poisson),
+        materials_of(&frame.gears, seat.gears, written.elastic_modulus, written.poisson),
     );
     let mut part = part.map_err(|faults| {
         let message = faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");

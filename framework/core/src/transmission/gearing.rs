@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use super::materials;
 use super::members::Members;
 use super::plausible;
 use super::seats::{CylindricalTeeth, GearSeat, MeshSeat, Teeth};
@@ -13,6 +14,7 @@ use crate::description::{
 };
 use crate::document::Diagnostic;
 use crate::geometry::{Pair, PairFault, PairSpec};
+use crate::material::Material;
 use crate::mechanism::Mechanism;
 use crate::mechanism::NamedSlots;
 use crate::mechanism::gear_drag::GearDrag;
@@ -78,16 +80,19 @@ impl<'a> Gearing<'a> {
         found: &'a mut Vec<Diagnostic>,
         warnings: &'a mut Vec<Diagnostic>,
     ) -> Self {
-        let seat = |((id, gear), member): ((&str, &GearEntry), &Option<usize>)| GearSeat {
-            id: id.to_owned(),
-            member: member.unwrap_or(0),
-            at: gear.at,
-            tip_at: gear.at,
-            z: gear.z,
-            facewidth: gear.facewidth,
-            ring: gear.kind == GearKind::Ring,
-            diameters: [0.0; 3],
-        };
+        let materials = materials::of_gears(entry, found, warnings);
+        let seat =
+            |(((id, gear), member), material): (((&str, &GearEntry), &Option<usize>), Option<Material>)| GearSeat {
+                id: id.to_owned(),
+                member: member.unwrap_or(0),
+                at: gear.at,
+                tip_at: gear.at,
+                z: gear.z,
+                facewidth: gear.facewidth,
+                ring: gear.kind == GearKind::Ring,
+                diameters: [0.0; 3],
+                material,
+            };
         let shift = |g: &GearEntry| match g.kind {
             GearKind::External => g.profile_shift,
             GearKind::Ring => g.profile_shift.map(|x| ShiftSign::standard(g.profile_shift_sign, x)),
@@ -98,7 +103,13 @@ impl<'a> Gearing<'a> {
             registry,
             entry,
             members,
-            gears: entry.gears.iter().zip(&members.of_gear).map(seat).collect(),
+            gears: entry
+                .gears
+                .iter()
+                .zip(&members.of_gear)
+                .zip(materials)
+                .map(seat)
+                .collect(),
             shifts: gears().map(shift).collect(),
             hands: gears().map(hand).collect(),
             tips: gears().map(|g| g.tip_diameter).collect(),

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::crossed::CrossedTeeth;
 use super::members::Members;
 use crate::geometry::Pair;
+use crate::material::Material;
 
 /// A gear with its geometry; SI.
 #[derive(Debug, Clone)]
@@ -25,6 +26,17 @@ pub struct GearSeat {
     pub ring: bool,
     /// Reference, tip and root diameter; zero without a mesh. \[m\]
     pub diameters: [f64; 3],
+    /// Material, if it names one.
+    pub material: Option<Material>,
+}
+
+/// The materials of two gears; of one that names none a metal of the mesh's modulus (Pa) and Poisson's ratio.
+pub(crate) fn materials_of(gears: &[GearSeat], pair: [usize; 2], modulus: f64, poisson: f64) -> [Material; 2] {
+    pair.map(|gear| {
+        gears[gear]
+            .material
+            .unwrap_or_else(|| Material::metal(modulus, poisson))
+    })
 }
 
 /// A mesh with its members; SI.

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Case, CrossedKind, TransferLaw, Transmission};
+use crate::material::MaterialKind;
 
 /// Derived geometry of one mesh; values of two gears in the order of `gears`.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -56,6 +57,15 @@ pub struct Stage {
     pub undercut_limit: [Option<f64>; 2],
     /// Specific sliding of each gear at the lowest point of its contacting flank; null for pitch circles. [-]
     pub specific_sliding: Option<[f64; 2]>,
+    /// Kinds of the materials, if a gear names its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub material: Option<[MaterialKind; 2]>,
+    /// Young's moduli, if a gear names its material. [GPa]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elastic_modulus_gpa: Option<[f64; 2]>,
+    /// Reduced modulus of the contact, 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, if a gear names its material. [GPa]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reduced_modulus_gpa: Option<f64>,
 }
 
 /// Derived geometry of one mesh of gears on axes that cross; values of two gears in the order of `gears`.
@@ -181,8 +191,10 @@ impl Transmission {
     /// Derived geometry of all meshes of cylindrical gears, in the order of the document.
     pub fn stages(&self) -> impl Iterator<Item = Stage> {
         self.meshes.iter().filter_map(|mesh| {
-            let pair = &mesh.law.cylindrical()?.pair;
+            let part = mesh.law.cylindrical()?;
+            let pair = &part.pair;
             let gears = mesh.seat.gears.map(|g| &self.gears[g]);
+            let named = gears.iter().any(|gear| gear.material.is_some());
             let mm = |lengths: [f64; 2]| lengths.map(|length| length * 1e3);
             let external = |gear: usize| Some(gear).filter(|gear| !pair.internal || *gear == 0);
             Some(Stage {
@@ -214,6 +226,9 @@ impl Transmission {
                 }),
                 undercut_limit: [0, 1].map(|gear| external(gear).map(|gear| pair.undercut_limit(gear))),
                 specific_sliding: pair.involute.then(|| pair.specific_sliding()),
+                material: named.then(|| part.gears.map(|material| material.kind)),
+                elastic_modulus_gpa: named.then(|| part.materials.map(|elastic| elastic.modulus * 1e-9)),
+                reduced_modulus_gpa: named.then_some(part.modulus * 1e-9),
             })
         })
     }

@@ -106,7 +106,18 @@ pub struct Mesh {
     pub centre_distance: Option<f64>,
     pub modulus: Option<f64>,
     pub poisson: Option<f64>,
+    /// Materials of both gears, if they differ.
+    pub materials: Option<[Material; 2]>,
     pub lubricant: Option<String>,
+}
+
+/// Material of a gear.
+#[derive(Debug, Clone)]
+pub struct Material {
+    pub id: String,
+    pub comment: String,
+    pub modulus: f64,
+    pub poisson: f64,
 }
 
 /// A pair on axes that cross.

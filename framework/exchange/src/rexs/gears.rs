@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::draft::{Gear, Mesh, Set};
+use super::draft::{Gear, Material, Mesh, Set};
 use super::map::{Map, id, named};
 use super::model::{Component, Id};
 use super::pair::{Basic, distance, matching_shift};
@@ -337,7 +337,11 @@ fn mesh(
         map.referenced(gear.component.id, "material")
             .or_else(|| map.referenced(*map.shaft_of.get(&gear.component.id)?, "material"))
     };
-    let (modulus, poisson) = elasticity(map, stage, [material(a), material(b)]);
+    let Elasticity {
+        modulus,
+        poisson,
+        materials,
+    } = elasticity(map, [material(a), material(b)]);
     let oil = map.referenced(stage.id, "lubricant");
     Some(Mesh {
         id: id("stage", stage.id),
@@ -349,6 +353,7 @@ fn mesh(
         centre_distance: orbits.then_some(actual),
         modulus,
         poisson,
+        materials,
         lubricant: oil
             .map(|oil| id("lubricant", oil.id))
             .filter(|oil| Some(oil) != map.sump.as_ref()),
@@ -433,38 +438,51 @@ fn check_shifts(
     }
 }
 
-/// Young's modulus and Poisson's ratio of a pair: one value for both gears that has the stiffness of the contact of both.
-fn elasticity(map: &Map<'_>, stage: &Component, materials: [Option<&Component>; 2]) -> (Option<f64>, Option<f64>) {
+/// Elastic constants of a pair.
+#[derive(Default)]
+struct Elasticity {
+    /// Young's modulus of both gears, if it is not the usual one. \[GPa\]
+    modulus: Option<f64>,
+    /// Poisson's ratio of both gears, if it is not the usual one.
+    poisson: Option<f64>,
+    /// Their materials, if they differ.
+    materials: Option<[Material; 2]>,
+}
+
+/// Young's modulus and Poisson's ratio of a pair: one value for both gears, or two materials.
+fn elasticity(map: &Map<'_>, materials: [Option<&Component>; 2]) -> Elasticity {
     let source = map.source;
     let read = |material: Option<&Component>| {
-        let modulus = source.positive(material?, "elastic_modulus", Quantity::Modulus)?;
+        let component = material?;
+        let modulus = source.positive(component, "elastic_modulus", Quantity::Modulus)?;
         let poisson = source
-            .number(material?, "poisson_ratio", Quantity::Number)
+            .number(component, "poisson_ratio", Quantity::Number)
             .unwrap_or(0.3);
-        (0.1..=1000.0)
-            .contains(&modulus)
-            .then_some((modulus, poisson))
-            .filter(|(_, nu)| (0.0..0.5).contains(nu))
+        let known = (0.1..=1000.0).contains(&modulus) && (0.0..0.5).contains(&poisson);
+        known.then(|| Material {
+            id: id("material", component.id),
+            comment: named(component),
+            modulus,
+            poisson,
+        })
     };
-    let (modulus, poisson) = match materials.map(read) {
-        [Some(a), Some(b)] if a == b => a,
+    let one = match materials.map(read) {
+        [Some(a), Some(b)] if (a.modulus, a.poisson) == (b.modulus, b.poisson) => a,
         [Some(a), Some(b)] => {
-            // 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 with nu of the first.
-            let compliance = (1.0 - a.1 * a.1) / a.0 + (1.0 - b.1 * b.1) / b.0;
-            source.assume(format!(
-                "{}: the materials of its gears differ; one modulus has the stiffness of their contact",
-                stage.label()
-            ));
-            (2.0 * (1.0 - a.1 * a.1) / compliance, a.1)
+            return Elasticity {
+                materials: Some([a, b]),
+                ..Elasticity::default()
+            };
         }
         [Some(one), None] | [None, Some(one)] => one,
-        [None, None] => return (None, None),
+        [None, None] => return Elasticity::default(),
     };
     let unlike = |value: f64, usual: f64| (value - usual).abs() > 1e-9 * usual;
-    (
-        Some(modulus).filter(|value| unlike(*value, 206.0)),
-        Some(poisson).filter(|value| unlike(*value, 0.3)),
-    )
+    Elasticity {
+        modulus: Some(one.modulus).filter(|value| unlike(*value, 206.0)),
+        poisson: Some(one.poisson).filter(|value| unlike(*value, 0.3)),
+        materials: None,
+    }
 }
 
 /// Planetary sets: of equal planets, or groups of planets that mesh with each other, one is written with their number.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::draft::{Axis, Bearing, CrossedMesh, Draft, Film, Gear, Lubricant, Mesh, Shaft};
+use super::draft::{Axis, Bearing, CrossedMesh, Draft, Film, Gear, Lubricant, Material, Mesh, Shaft};
 
 /// A number as short as it can be written, with at most twelve digits: coordinates are sums, and their last digits are rounding.
 pub fn number(value: f64) -> String {
@@ -86,10 +86,11 @@ pub fn gearbox(draft: &Draft) -> String {
     let _ = writeln!(text, "source: {}", quoted(&draft.source));
     ports(&mut text, draft);
     shafts(&mut text, &draft.shafts);
-    gears(&mut text, &draft.gears);
+    gears(&mut text, &draft.gears, &draft.meshes);
     meshes(&mut text, &draft.meshes);
     crossed(&mut text, &draft.crossed);
     surface(&mut text, draft);
+    materials(&mut text, &draft.meshes);
     sets(&mut text, draft);
     couplings(&mut text, draft);
     bearings(&mut text, &draft.bearings);
@@ -197,7 +198,38 @@ fn axis(axis: Axis) -> String {
     }
 }
 
-fn gears(text: &mut String, gears: &[Gear]) {
+/// Materials of the gears of meshes in which they differ, each once.
+fn materials(text: &mut String, meshes: &[Mesh]) {
+    let mut known: Vec<&Material> = Vec::new();
+    for material in meshes.iter().flat_map(|mesh| mesh.materials.iter().flatten()) {
+        if !known.iter().any(|other| other.id == material.id) {
+            known.push(material);
+        }
+    }
+    if !known.is_empty() {
+        text.push_str("materials:\n");
+    }
+    for material in known {
+        let entry = Entry::default()
+            .word_if("kind", (material.modulus < SOFT).then_some("plastic"))
+            .quantity("elastic_modulus", material.modulus, "GPa")
+            .quantity("poisson", material.poisson, "");
+        line(text, &material.id, entry, &material.comment);
+    }
+}
+
+/// Young's modulus below which no metal of gears is. \[GPa\]
+const SOFT: f64 = 20.0;
+
+/// The material that a gear names.
+fn material_of<'m>(gear: &Gear, meshes: &'m [Mesh]) -> Option<&'m str> {
+    meshes.iter().find_map(|mesh| {
+        let place = mesh.gears.iter().position(|id| *id == gear.id)?;
+        Some(mesh.materials.as_ref()?[place].id.as_str())
+    })
+}
+
+fn gears(text: &mut String, gears: &[Gear], meshes: &[Mesh]) {
     if gears.is_empty() {
         return;
     }
@@ -217,6 +249,7 @@ fn gears(text: &mut String, gears: &[Gear]) {
             .word_if("profile_shift_sign", sign)
             .quantity_if("tip_diameter", gear.tip_diameter, "mm")
             .quantity_if("root_diameter", gear.root_diameter, "mm")
+            .word_if("material", material_of(gear, meshes))
             .word_if(
                 "surface",
                 gear.ra.map(|ra| Entry::default().quantity("ra", ra, "um").text()),

@@ -403,7 +403,7 @@ fn rest_on(b: &Built<'_>, solution: &Solution<'_>, assumed: &[AssumedEntry]) -> 
     let mut row = vec![b.name.clone(), number(loss, 3)];
     row.extend(sums.map(share));
     // Assumptions on oil, housing, flanks or heat affect all components.
-    let whole = ["lubricants", "housing", "surface", "thermal", "shafts"];
+    let whole = ["lubricants", "materials", "housing", "surface", "thermal", "shafts"];
     let global: Vec<&str> = patterns
         .iter()
         .copied()

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::bearings;
 use super::layouts::Layout;
+use super::materials;
 
 /// Fields under one heading.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -252,6 +253,7 @@ impl Reader<'_> {
                     ));
                 }
             }
+            fields.extend(new.iter().map(|gear| Some(materials::field(gear))));
             shown.extend(new.iter().map(ToString::to_string));
             for (key, label, kind, help) in keys {
                 fields.push(self.field(&format!("{section}.{mesh}.{key}"), label, *kind, help));

@@ -11,6 +11,7 @@ use super::bearings::{self, Typed};
 use super::fields::{Field, FieldKind, MODE, at, groups};
 use super::followed::followed;
 use super::layouts::Layout;
+use super::materials;
 use crate::answer::Fault;
 
 /// A gearbox from a form.
@@ -56,7 +57,14 @@ pub fn written(layout: &Layout, values: &BTreeMap<String, String>) -> Result<Wri
             continue;
         }
         for path in twins(layout, path) {
-            if field.example.is_some() {
+            if path.starts_with("gears.") && field.example.is_some() {
+                changes.extend(materials::change(
+                    layout.text,
+                    &document,
+                    &path,
+                    &scalar(typed, field.kind),
+                ));
+            } else if field.example.is_some() {
                 bearings::note(&mut details, &path, scalar(typed, field.kind));
             } else if let Some(node) = at(&document, &path) {
                 changes.push((node.span.clone(), scalar(typed, field.kind)));

@@ -7,10 +7,9 @@ use gearloss_framework::description::LubricantEntry;
 use gearloss_framework::description::lubricant::{DensityEntry, RheologyEntry, ViscosityEntry};
 use gearloss_framework::geometry::{Pair, PairSpec};
 use gearloss_framework::lubricant::Lubricant;
+use gearloss_framework::material::Conductor;
 use gearloss_framework::mechanism::gear_mesh::{MeshOil, MeshPart};
 use gearloss_framework::mechanism::tooth_friction::PathNode;
-
-use super::temperature::Flank;
 
 /// Compares to the digits that the cases are published with.
 pub fn close(value: f64, printed: f64) {
@@ -18,7 +17,7 @@ pub fn close(value: f64, printed: f64) {
 }
 
 /// The steel of the cases.
-pub const STEEL: Flank = Flank {
+pub const STEEL: Conductor = Conductor {
     conductivity: 46.0,
     density: 7800.0,
     heat_capacity: 470.0,

@@ -4,6 +4,7 @@
 //! the coefficient. The unknown is therefore one number between zero and the larger of boundary friction and the slope of the
 //! limiting stress. Common iterations on temperatures are the same loop with fixed relaxation.
 
+use gearloss_framework::material::Conductor;
 use gearloss_framework::real::{Mask as _, Points};
 
 use super::contact::{Contact, Logarithms};
@@ -11,7 +12,7 @@ use super::film::{Factor, Film, Inlet, InletLogarithms};
 use super::mixed::{boundary_share, friction};
 use super::oil::{InletOil, Oil};
 use super::settled::Search;
-use super::temperature::{FilmHeat, Flank, first_heat, first_share};
+use super::temperature::{FilmHeat, first_heat, first_share};
 use super::traction::{Limit, Transit};
 
 /// Selected formulas and the properties of the flanks, common to all contacts of a mesh.
@@ -27,8 +28,8 @@ pub struct Laws {
     pub film_heat: FilmHeat,
     /// Exponent of the share of boundary friction.
     pub exponent: f64,
-    /// Flanks.
-    pub flank: Flank,
+    /// Flanks of both gears.
+    pub flanks: [Conductor; 2],
     /// False for contacts that friction does not heat.
     pub thermal: bool,
 }
@@ -159,7 +160,8 @@ impl<'a, R: Points> Place<'a, R> {
         let [u1, u2] = contact.speeds;
         let (speed, sliding) = ((u1 + u2) * 0.5, (u1 - u2).abs());
         let rheology = oil.rheology;
-        let resistance = |speed: R| laws.flank.resistance(contact.half_width, contact.length, speed);
+        let resistance =
+            |gear: usize, speed: R| laws.flanks[gear].resistance(contact.half_width, contact.length, speed);
         let mut place = Self {
             laws,
             oil,
@@ -171,7 +173,7 @@ impl<'a, R: Points> Place<'a, R> {
             sliding,
             slide_roll: sliding / speed,
             heat: contact.line_load * contact.length * sliding,
-            bands: [resistance(u1), resistance(u2)],
+            bands: [resistance(0, u1), resistance(1, u2)],
             pressed: oil.law.pressed(contact.mean_pressure),
             limit: Limit::new(contact.mean_pressure * (rheology.limiting_slope / rheology.tau0)),
             most: rheology.mu_b.max(rheology.limiting_slope),
@@ -320,8 +322,10 @@ impl<'a, R: Points> Place<'a, R> {
     /// Smaller of the Peclet numbers of both flanks.
     #[inline(always)]
     pub fn peclet(&self) -> R {
-        let slow = self.contact.speeds[0].min(self.contact.speeds[1]);
-        self.laws.flank.peclet(self.contact.half_width, slow)
+        let [first, second] = self.contact.speeds;
+        let [a, b] = &self.laws.flanks;
+        let half_width = self.contact.half_width;
+        a.peclet(half_width, first).min(b.peclet(half_width, second))
     }
 
     /// Solves the contact from an initial guess of its friction, and returns the friction; `slope` is the last estimate of the

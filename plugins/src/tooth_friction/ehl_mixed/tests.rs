@@ -319,7 +319,9 @@ fn without_heat_the_oil_is_as_warm_as_it_enters() {
     // Steel of infinite conductivity and a film at the temperature of its surfaces give the same result.
     let cold = json!({ "flank_conductivity": 1e12, "gear_resistance": [0.0, 0.0], "bodies": "oil" });
     let mut conducting = Rig::new(1, &cold);
-    conducting.model.laws.flank.heat_capacity = 1e9;
+    for flank in &mut conducting.model.laws.flanks {
+        flank.heat_capacity = 1e9;
+    }
     let film_only = conducting.solve(&conducting.gauss(), torque(30.0, 2000.0), 2000.0, 40.0);
     assert!(film_only.loss < solved.loss && film_only.loss > 0.9 * solved.loss);
 }

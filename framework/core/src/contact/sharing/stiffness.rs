@@ -11,6 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pair, involute};
+pub use crate::material::Elastic;
 
 /// Law of the stiffness of one pair of teeth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -23,22 +24,6 @@ pub enum StiffnessLaw {
     Iso6336,
     /// A cosine along the path whose maximum is the single stiffness of ISO 6336-1, after Sanchez, Pedrero and Pleguezuelos.
     Cosine,
-}
-
-/// Elastic constants of one gear.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Elastic {
-    /// Young's modulus. \[Pa\]
-    pub modulus: f64,
-    /// Poisson's ratio.
-    pub poisson: f64,
-}
-
-impl Elastic {
-    /// Compliance of a half-space, (1 - nu^2)/E. \[1/Pa\]
-    fn half_space(self) -> f64 {
-        (1.0 - self.poisson * self.poisson) / self.modulus
-    }
 }
 
 /// Theoretical single stiffness 1/q' of ISO 6336-1. \[N/(m m)\], which is 1e-9 N/(mm um)
