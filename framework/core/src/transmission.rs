@@ -10,6 +10,7 @@ mod drags;
 mod gearing;
 mod grease;
 mod inside;
+mod lean;
 mod members;
 mod nodes;
 mod oil_network;

@@ -20,7 +20,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
 
-use super::flank::{self, RatedPath};
+use super::flank::{self, RatedFlanks};
 use crate::tooth_friction::ehl_mixed::contact::Contact;
 use crate::tooth_friction::ehl_mixed::temperature::{Flank, blok};
 
@@ -87,7 +87,7 @@ fn one() -> f64 {
 /// The rating with the path of its mesh and its friction law.
 struct Prepared {
     params: FlashTemperature,
-    path: Option<RatedPath>,
+    flanks: Option<RatedFlanks>,
     friction: Slot<MeanFriction>,
 }
 
@@ -96,9 +96,9 @@ fn prepare(params: FlashTemperature, cx: &mut Build<'_>) -> Result<Prepared, Dia
     let chosen = params.mean_friction.clone().unwrap_or_else(default);
     let friction = cx.slot("mean_friction", &chosen)?;
     let part = cx.own_part::<GearMesh>()?.clone();
-    let sharing = cx.load_sharing(&part, &params.load_sharing)?;
+    let (drive, coast) = cx.load_sharings(&part, &params.load_sharing)?;
     Ok(Prepared {
-        path: RatedPath::new(&part.pair, &sharing),
+        flanks: RatedFlanks::new(&part.pair, &drive, coast.as_ref()),
         friction,
         params,
     })
@@ -106,7 +106,7 @@ fn prepare(params: FlashTemperature, cx: &mut Build<'_>) -> Result<Prepared, Dia
 
 impl Rating<GearMesh> for Prepared {
     fn rate(&self, at: &GearMeshAt<'_>, to: &mut Rated) -> Result<(), Undefined> {
-        let Some(path) = &self.path else {
+        let Some(path) = self.flanks.as_ref().map(|flanks| flanks.at(at)) else {
             at.branch("no path of contact of involute flanks");
             return Ok(());
         };
