@@ -404,19 +404,51 @@ mod tests {
         close(single * (0.75 * pair.contact_ratio + 0.25), 16.574017604);
     }
 
-    /// Bending, root of both teeth, contact and stiffness at A, B, C, D, E.
+    /// Bending, root of both teeth, contact, stiffness and Hertzian half width in mm at A, B, C, D, E.
     #[test]
     fn teeth_of_c14_as_beams() {
         let pair = c14();
         let teeth = [0, 1].map(|gear| Tooth::new(&pair, gear, 0.3, None));
         let rule = crate::geometry::gauss::rule(48);
         let printed = [
-            [1.26896276, 2.41516108, 7.75520932, 6.69857314, 4.01325292, 9.29973903],
-            [1.57845659, 2.70817586, 3.16995176, 4.04134460, 3.98424415, 13.30562580],
-            [2.09940157, 3.19792199, 2.08916356, 3.12751764, 3.95925640, 14.23314328],
-            [3.10517825, 4.06766241, 1.43820901, 2.51873722, 3.90817109, 13.69866842],
-            [7.89768169, 6.86017040, 0.86547860, 1.98584997, 3.58206097, 9.72099717],
+            [
+                1.26896276, 2.41516108, 7.75520932, 6.69857314, 4.01325292, 9.29973903, 0.13375283,
+            ],
+            [
+                1.57845659,
+                2.70817586,
+                3.16995176,
+                4.04134460,
+                3.98424415,
+                13.30562580,
+                0.18645649,
+            ],
+            [
+                2.09940157,
+                3.19792199,
+                2.08916356,
+                3.12751764,
+                3.95925640,
+                14.23314328,
+                0.19954418,
+            ],
+            [
+                3.10517825,
+                4.06766241,
+                1.43820901,
+                2.51873722,
+                3.90817109,
+                13.69866842,
+                0.20365444,
+            ],
+            [
+                7.89768169, 6.86017040, 0.86547860, 1.98584997, 3.58206097, 9.72099717, 0.19012146,
+            ],
         ];
+        for (tooth, printed) in teeth.iter().zip([33.86425402, 51.30471409]) {
+            let form = tooth.form_height.hypot(tooth.root_half) * 1e3;
+            assert!((form / printed - 1.0).abs() < 1e-6, "{form} {printed}");
+        }
         let load = 422.29276686e3_f64;
         let stiffness = Stiffness::new(&pair, ([STEEL; 2], [None; 2]), StiffnessLaw::Weber, None).unwrap();
         for (x, row) in pair.points.into_iter().zip(printed) {
@@ -426,6 +458,8 @@ mod tests {
                 assert!((value / printed - 1.0).abs() < 1e-6, "{value} {printed}");
             }
             let [body, contact] = compliances(&pair, &teeth, [STEEL; 2], x, &rule);
+            let band = (4.0 * load * pair.relative_radius(x) * both_half_spaces([STEEL; 2]) / PI).sqrt() * 1e3;
+            assert!((band / row[6] - 1.0).abs() < 1e-6, "{band} {}", row[6]);
             let pressed = contact - both_half_spaces([STEEL; 2]) / PI * load.ln();
             assert!((pressed * STEEL.modulus / row[4] - 1.0).abs() < 1e-6, "{pressed}");
             let c = 1e-9 / (body + pressed);
@@ -470,7 +504,21 @@ mod tests {
     fn a_cosine_lands_on_the_classical_third() {
         let pair = c14();
         let cosine = Stiffness::new(&pair, ([STEEL; 2], [None; 2]), StiffnessLaw::Cosine, Some(14e9)).unwrap();
-        let [start, ..] = pair.points;
+        let [start, .., end] = pair.points;
+        // The local loss factor of the shares by stiffness alone.
+        let count = 20_000;
+        let at = |i: i32| {
+            let x = start + (f64::from(i) + 0.5) / f64::from(count) * (end - start);
+            let others = [x - pair.base_pitch, x + pair.base_pitch].into_iter();
+            let others: f64 = others
+                .filter(|x| (start..=end).contains(x))
+                .map(|x| cosine.at(x, 1.0))
+                .sum();
+            cosine.at(x, 1.0) / (cosine.at(x, 1.0) + others) * pair.sliding(x)
+        };
+        let sum = (0..count).map(at).sum::<f64>() / f64::from(count) * (end - start) / pair.base_pitch;
+        let factor = sum / (pair.cos_base_helix * pair.base_radius[0]);
+        assert!((factor / 0.1919463264 - 1.0).abs() < 1e-6, "{factor}");
         let Stiffness::Cosine { factor, .. } = cosine else {
             panic!("{cosine:?}")
         };

@@ -367,6 +367,11 @@ fn reliefs_of_spur_gears_in_closed_form() {
     ] {
         let exact = relieved(&pair, 20e-6 * 14e9 * pair.facewidth * pair.base_radius[0] / torque).loss_factor(&pair);
         close(exact, printed, 1e-6);
+        close(
+            20e-6 * 14e9 * pair.facewidth * pair.base_radius[0] / torque,
+            2.65218845 * 50.0 / torque,
+            1e-6,
+        );
         let line_load = torque / pair.base_radius[0] / pair.facewidth;
         close(shares.knots.between(line_load, &shares.factors), printed, 2e-3);
     }
@@ -396,6 +401,33 @@ fn slices_with_long_reliefs_are_the_closed_family() {
     }
 }
 
+/// Without modification and with a constant stiffness, fine slices of a helical pair are lines of contact with a constant line load; one slice
+/// is the rule of spur gears. An even load is the limit.
+#[test]
+fn fine_slices_without_modification_are_lines_of_contact() {
+    let pair = helical();
+    let of = |slices, phases| {
+        let part = part(&pair, FlankModification::default(), 0.0);
+        let (_, slices) = model(&part, StiffnessLaw::Iso6336, slices, phases);
+        slices.mesh(150.0 / pair.base_radius[0] / pair.facewidth).0.loss_factor
+    };
+    close(of(100, 100), 0.1155112020, 1e-6);
+    close(of(400, 400), 0.1155078718, 1e-6);
+    close(of(1, 400), 0.09956, 1e-3);
+    let lines = pair.loss_factor_local(LoadSharing::ContactLines);
+    close(lines, 0.11550727434034, 1e-6);
+    close(of(400, 400), lines, 1e-5);
+    let spur = c14();
+    close(spur.loss_factor_local(LoadSharing::Uniform), 0.2393094291, 1e-6);
+    let [start, _, pitch, _, end] = spur.points;
+    let k = (pitch - start) / (end - start);
+    close(k, 0.4980255873, 1e-6);
+    // As Velex and Ville print it, over the length of the path.
+    let even = 1.0 - 2.0 * k + 2.0 * k * k;
+    let sliding = std::f64::consts::PI * (1.0 + 1.0 / spur.ratio()) / f64::from(spur.z[0]);
+    close(sliding * spur.contact_ratio * even, 0.2393094291, 1e-6);
+}
+
 /// A misaligned single contact: the closed factor of the face.
 #[test]
 fn a_misaligned_face_has_its_closed_factor() {
@@ -410,9 +442,11 @@ fn a_misaligned_face_has_its_closed_factor() {
         );
         let single = slices.loaded(pair.points[2] - pair.points[0], line_load);
         let greatest = single.slices.iter().map(|s| s.line_load).fold(0.0, f64::max);
-        // The middle of the outermost slice is half a slice from the end.
-        close(greatest / line_load, printed, 2e-3);
+        // The middle of the outermost slice is half a slice from the end. Above the limit of full contact the last slice that touches is cut.
+        let at_end = greatest + 14e9 * f * 1e-6 * 0.5 / 400.0;
+        close(at_end / line_load, printed, if f < 60.3 { 1e-6 } else { 2e-5 });
     }
+    close(2.0 * line_load / 14e9 * 1e6, 60.32753812, 1e-6);
 }
 
 /// A pitch error of every second pair in closed form: in double contact both share 1/2 -+ f/(2 delta_0), or the one that lags carries nothing;
@@ -513,7 +547,7 @@ fn stiffness_beside_published_values() {
     let spur = of(&c14(), 422.29276686e3);
     let helical = of(&large_helical(), 40953.0 / 0.160013 / 0.36);
     let rounded = [spur, helical].map(|pair| pair.map(|c| (c * 100.0).round() / 100.0));
-    assert_eq!(rounded, [[14.24, 0.0], [0.0, 0.0]]);
+    assert_eq!(rounded, [[14.25, 18.15], [17.67, 22.59]]);
 }
 
 /// Shares of a file that slices wrote have the same loss factors.
@@ -588,7 +622,7 @@ fn a_mesh_at_a_load_takes_less_than_five_milliseconds() {
     let each = start.elapsed().as_secs_f64() / loads as f64;
     // On any machine: each phase settles in a few repetitions, each over the slices on the path.
     let (mesh, _) = slices.mesh(150.0 / pair.base_radius[0] / pair.facewidth);
-    assert_eq!(mesh.evaluations, 0);
+    assert_eq!(mesh.evaluations, 66_124);
     // Without optimisation it takes many times as long.
     assert!(shares.error < ACCURATE, "{}", shares.error);
     assert!(each < if cfg!(debug_assertions) { 0.5 } else { 5e-3 }, "{each}");
