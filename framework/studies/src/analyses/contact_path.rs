@@ -157,7 +157,7 @@ pub struct MeshUnderLoad {
 }
 
 /// A row of a file of shares.
-#[derive(Debug, Clone, Copy, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy)]
 pub struct ShareOfFile {
     /// Torque of the first gear. [Nm]
     pub torque: f64,
@@ -579,7 +579,20 @@ impl Outcome for ContactPathOutcome {
         for path in self.paths.iter().filter(|path| path.mesh_load.is_some()) {
             let name = format!("{}-shares-{}", self.head.analysis, path.model_set);
             let shares = Table::of_each(name, std::slice::from_ref(path), ContactPath::file);
-            tables.push(shares.fields("torque path face share", |(_, at)| at).finish());
+            // The headings are those that a file of shares has.
+            let shares = shares
+                .number("torque [Nm]", "Nm", "Torque of the first gear", |(_, row)| row.torque)
+                .number(
+                    "path [-]",
+                    "-",
+                    "Place from the first to the last contact if the first gear drives",
+                    |(_, row)| row.path,
+                )
+                .number("face [-]", "-", "Place on the face", |(_, row)| row.face)
+                .number("share [-]", "-", "Line load over that of one pair alone", |(_, row)| {
+                    row.share
+                });
+            tables.push(shares.finish());
         }
         tables
     }
