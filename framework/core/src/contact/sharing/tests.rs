@@ -413,7 +413,8 @@ fn fine_slices_without_modification_are_lines_of_contact() {
     };
     close(of(100, 100), 0.1155112020, 1e-6);
     close(of(400, 400), 0.1155078718, 1e-6);
-    close(of(1, 400), 0.09956, 1e-3);
+    // The share of one slice jumps, so that it takes more phases; printed with four digits.
+    close(of(1, 20_000), 0.09956, 1e-4);
     let lines = pair.loss_factor_local(LoadSharing::ContactLines);
     close(lines, 0.11550727434034, 1e-6);
     close(of(400, 400), lines, 1e-5);
