@@ -45,6 +45,7 @@ mod json;
 mod laws;
 mod library;
 mod limits;
+mod load_on_teeth;
 mod locked;
 mod lsp;
 mod machines;

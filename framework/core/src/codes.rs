@@ -98,6 +98,12 @@ gearloss_document::codes! {
     SHARE_FILE = "E0351", "faulty file of load shares",
         cause: "A file of `load_sharing: { type: file }` cannot be read, is incomplete, or its shares do not carry the whole force.",
         help: "Correct the file at the place that the message names.";
+    SHAFT_DEFLECTION = "E0352", "deflection of shafts that cannot be calculated",
+        cause: "`shaft_deflection` of a mesh needs a rating, and bearings and diameters of both shafts over their whole length; gears on planets have none.",
+        help: "State what the message names, or the `misalignment` of the mesh instead.";
+    SHARES_OF_FLANKS = "E0353", "shares of both flanks for a model that does not distinguish them",
+        cause: "A file of `load_sharing` has a column `flank`, and the model or rating that names it does not know which flanks touch.",
+        help: "Name a file without the column `flank`, or a mesh model that integrates along the path of contact.";
     TRAVEL = "E0360", "a cycle cannot incline the oil",
         cause: "`housing.travel` lets grade and acceleration of a cycle incline the oil, but no level or no oil space is known, or it inclines the oil by more than 60 degrees.",
         help: "State `volume` with `housing.inside`, correct the cycle, or delete `travel`.";

@@ -16,6 +16,7 @@ mod statics;
 mod stiff_pair;
 mod thermal_closing;
 mod thrust;
+mod tilt;
 
 pub use carries::{Carries, Thrust};
 pub use induced::{Induced, InducedBasis, InducedThrust};
@@ -28,6 +29,7 @@ pub use shaft_loads::{Group, ShaftLoads, ToothForces};
 pub use static_rating::{LEAST_STATIC_SAFETY, StaticFactors, StaticRating};
 pub use stiff_pair::{AngularRow, StiffPair};
 pub use thermal_closing::{Mounting, ThermalClosing};
+pub use tilt::{Tilt, TiltFault};
 
 use crate::real::Points;
 

@@ -181,6 +181,43 @@ impl Table {
         Self::from_cells(&cells(bytes.as_ref())?, reading, axes)
     }
 
+    /// As [`Table::from_file`], with one table for each word in a column of words, in the order of the file; a single one with an empty word if
+    /// there is no such column.
+    ///
+    /// # Errors
+    /// As [`Table::from_file`].
+    pub fn by_word(bytes: impl AsRef<[u8]>, reading: &Reading, column: &str) -> Result<Vec<(String, Self)>, String> {
+        let mut cells = cells(bytes.as_ref())?;
+        let axes = |cells: &data::cells::Table| cells.names.len().saturating_sub(1);
+        let Some(place) = cells.names.iter().position(|name| name.trim() == column) else {
+            let mut tables = Self::from_cells(&cells, reading, axes(&cells))?;
+            let only = tables.pop().ok_or_else(|| "line 1: no column".to_owned())?;
+            return Ok(vec![(String::new(), only)]);
+        };
+        cells.names.remove(place);
+        if place < cells.units.len() {
+            cells.units.remove(place);
+        }
+        let mut groups: Vec<(String, Vec<(u64, Vec<String>)>)> = Vec::new();
+        for (line, mut row) in std::mem::take(&mut cells.rows) {
+            if place >= row.len() {
+                return Err(format!("line {line}: no `{column}`"));
+            }
+            let word = row.remove(place).trim().to_owned();
+            match groups.iter_mut().find(|(known, _)| *known == word) {
+                Some((_, rows)) => rows.push((line, row)),
+                None => groups.push((word, vec![(line, row)])),
+            }
+        }
+        let mut tables = Vec::new();
+        for (word, rows) in groups {
+            cells.rows = rows;
+            let found = Self::from_cells(&cells, reading, axes(&cells))?.pop();
+            tables.push((word, found.ok_or_else(|| "line 1: no column".to_owned())?));
+        }
+        Ok(tables)
+    }
+
     fn from_cells(cells: &data::cells::Table, reading: &Reading, axes: usize) -> Result<Vec<Self>, String> {
         let header = headings(cells);
         let at_header = cells.at_header();

@@ -11,6 +11,7 @@ mod drags;
 mod gearing;
 mod grease;
 mod inside;
+mod lean;
 mod materials;
 mod members;
 mod nodes;

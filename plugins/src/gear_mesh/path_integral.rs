@@ -20,7 +20,7 @@
 
 use std::sync::Arc;
 
-use gearloss_framework::contact::sharing::{Knots, SharingEntry};
+use gearloss_framework::contact::sharing::{Knots, Sharing, SharingEntry};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::geometry::PathPoint;
 use gearloss_framework::loss::{Loss, Undefined};
@@ -34,7 +34,7 @@ use gearloss_framework::{observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use gearloss_framework::contact::path::FrictionPath;
+use gearloss_framework::contact::path::{FrictionPath, PathFriction};
 use gearloss_framework::contact::{dowson_higginson, heating, thinned};
 
 use crate::checks::SIX_DIGITS;
@@ -111,17 +111,48 @@ fn yes() -> bool {
 
 /// The path of one mesh, prepared.
 struct Integral {
+    drive: FlankPath,
+    /// The path of the coast flank, if that has its own load sharing.
+    coast: Option<FlankPath>,
+    friction: Slot<ToothFriction>,
+}
+
+/// The path of one flank.
+struct FlankPath {
     /// The path with its local loss factor at each knot of the load sharing.
     path: Arc<(FrictionPath, Vec<f64>)>,
-    friction: Slot<ToothFriction>,
     rolling: Option<Vec<RollingPath>>,
+}
+
+/// What a path tells at an operating point.
+struct AlongFlank<R> {
+    friction: PathFriction<R>,
+    loss_factor: R,
+    /// Power of rolling friction, if it is not neglected. \[W\]
+    rolling: Option<R>,
 }
 
 fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnostic> {
     let friction = cx.slot("tooth_friction", &params.tooth_friction)?;
     let part = cx.own_part::<GearMesh>()?.clone();
+    let (drive, coast) = cx.load_sharings(&part, &params.load_sharing)?;
+    let mut path = |step, sharing| flank_path(&params, &part, (step, sharing), &friction, cx);
+    Ok(Integral {
+        drive: path("path", drive)?,
+        coast: coast.map(|coast| path("path of the coast flank", coast)).transpose()?,
+        friction,
+    })
+}
+
+/// The path of a flank with its load sharing; the name of the step is its own.
+fn flank_path(
+    params: &PathIntegral,
+    part: &MeshPart,
+    (step, sharing): (&str, Sharing),
+    friction: &Slot<ToothFriction>,
+    cx: &mut Build<'_>,
+) -> Result<FlankPath, Diagnostic> {
     let (pair, average) = (part.pair, params.average);
-    let sharing = cx.load_sharing(&part, &params.load_sharing)?;
     let [start, .., end] = pair.points;
     let weight = |p: &PathPoint| match average {
         Average::BasePitch => p.weight / pair.base_pitch,
@@ -130,10 +161,10 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
     // It does not depend on oil and roughness of the part.
     let orders = (friction.order(), friction.kinked_order(), friction.friction_limits());
     let path = cx.repeat(
-        "path",
+        step,
         (pair, sharing.clone(), average, orders),
         |_| -> Result<_, String> {
-            let path = FrictionPath::new(&pair, &sharing, &*friction)?.weighted(weight);
+            let path = FrictionPath::new(&pair, &sharing, &**friction)?.weighted(weight);
             Ok(Arc::new((path, sharing.loss_factors(&pair))))
         },
     );
@@ -142,13 +173,75 @@ fn prepare(params: PathIntegral, cx: &mut Build<'_>) -> Result<Integral, Diagnos
         // What rolls is the part of the face that carries load.
         let touching = |p: &PathPoint| if p.line > 0.0 { p.share / p.line } else { 0.0 };
         let weights: Vec<f64> = few.points().iter().map(|p| weight(p) * touching(p)).collect();
-        RollingPath::new(&params, &part, few.nodes(), &weights)
+        RollingPath::new(params, part, few.nodes(), &weights)
     });
-    Ok(Integral {
+    Ok(FlankPath {
         rolling: rolling.collect(),
         path,
-        friction,
     })
+}
+
+impl FlankPath {
+    #[inline(always)]
+    fn along<R: Answers>(
+        &self,
+        law: &Slot<ToothFriction>,
+        at: &GearMeshAt<'_, R>,
+        mean: &MeanFrictionAt<'_, R>,
+    ) -> Result<AlongFlank<R>, Undefined> {
+        let bodies = at.bodies()?;
+        let (path, loss_factors) = &*self.path;
+        let at_path = path
+            .few()
+            .at_operating_point(mean, at.notes.nested_at_same_state(law.notes))
+            .with(|to| to.bodies = bodies);
+        at.show("F_bt/b", "N/m", at_path.line_load);
+        let rolling = self.rolling.as_ref();
+        Ok(AlongFlank {
+            friction: path.friction(&**law, &at_path)?,
+            loss_factor: path.knots().between(at_path.line_load, loss_factors),
+            rolling: rolling.map(|rolling| rolling_power(rolling, path.knots(), at, &at_path)),
+        })
+    }
+}
+
+impl Integral {
+    /// What the path of the flank in contact tells.
+    #[inline(always)]
+    fn along<R: Answers>(
+        &self,
+        at: &GearMeshAt<'_, R>,
+        mean: &MeanFrictionAt<'_, R>,
+    ) -> Result<AlongFlank<R>, Undefined> {
+        let drive = |at: &GearMeshAt<'_, R>| self.drive.along(&self.friction, at, mean);
+        let Some(coast) = &self.coast else {
+            return drive(at);
+        };
+        let coast = |at: &GearMeshAt<'_, R>| coast.along(&self.friction, at, mean);
+        let (first, back) = (at.first_drives.is_above(R::HALF), at.speed.is_below(R::ZERO));
+        let on_drive = (first & !back) | (!first & back);
+        if on_drive.all() {
+            at.branch("drive flank");
+            return drive(at);
+        }
+        if !on_drive.any() {
+            at.branch("coast flank");
+            return coast(at);
+        }
+        let among = |mask| at.with(|to| to.notes = at.notes.among(mask));
+        let (one, other) = (drive(&among(on_drive))?, coast(&among(!on_drive))?);
+        let of = |one, other| R::select(on_drive, one, other);
+        Ok(AlongFlank {
+            friction: PathFriction {
+                sliding: of(one.friction.sliding, other.friction.sliding),
+                mean: of(one.friction.mean, other.friction.mean),
+                arm: of(one.friction.arm, other.friction.arm),
+                first_heat: of(one.friction.first_heat, other.friction.first_heat),
+            },
+            loss_factor: of(one.loss_factor, other.loss_factor),
+            rolling: one.rolling.zip(other.rolling).map(|(one, other)| of(one, other)),
+        })
+    }
 }
 
 /// Exponents of viscosity times speed, of the line load and of the pressure-viscosity coefficient in the rolling force of Goksem and
@@ -271,24 +364,18 @@ impl GearMeshLaw for Integral {
         let speed = at.speed.abs();
         let mean = MeanFrictionAt::at_pitch_point(at, at.notes);
         let normal = at.show("F_bn", "N", mean.normal_force);
-        let bodies = at.bodies()?;
-        let (path, loss_factors) = &*self.path;
-        let at_path = path
-            .few()
-            .at_operating_point(&mean, at.notes.nested_at_same_state(self.friction.notes))
-            .with(|to| to.bodies = bodies);
-        at.show("F_bt/b", "N/m", at_path.line_load);
-        let friction = path.friction(&*self.friction, &at_path)?;
+        let along = self.along(at, &mean)?;
+        let friction = along.friction;
         at.observe(&MU_MEAN, friction.mean);
-        at.observe(&LOSS_FACTOR, path.knots().between(at_path.line_load, loss_factors));
+        at.observe(&LOSS_FACTOR, along.loss_factor);
         let watts = at.show("P_s", "W", friction.sliding * normal * speed);
         let loss = Loss::POWERS
             .with(&SLIDING, R::select(idle, R::ZERO, watts))
             .heats_first(friction.first_heat);
-        let Some(rolling) = &self.rolling else {
+        let Some(rolling) = along.rolling else {
             return Ok(loss);
         };
-        let rolling = at.show("P_r", "W", rolling_power(rolling, path.knots(), at, &at_path));
+        let rolling = at.show("P_r", "W", rolling);
         Ok(loss.with(&ROLLING, R::select(idle, R::ZERO, rolling)))
     }
 }

@@ -53,7 +53,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Both, Diagnostic> {
             permissible_film_ratio: None,
             least_safety: 1.0,
         };
-        Prepared::new(params, &part.flanks[i].pair, &sharing)
+        Prepared::new(params, &part.flanks[i].pair, &sharing, None)
     };
     Ok(Both([of_flanks(0), of_flanks(1)]))
 }

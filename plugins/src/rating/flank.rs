@@ -1,7 +1,7 @@
 //! The path of contact of a mesh at one point, for ratings of flanks.
 
 use gearloss_framework::contact::path::Path;
-use gearloss_framework::contact::sharing::{Knots, Sharing};
+use gearloss_framework::contact::sharing::{Flank, Knots, Sharing};
 use gearloss_framework::geometry::{Line, Pair, PathPoint};
 use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
@@ -10,10 +10,39 @@ use gearloss_framework::mechanism::tooth_friction::{ContactAt, PathNode};
 /// Points on each section of the path besides its ends, where pressure and flash temperature jump and mostly have their maxima.
 const ORDER: usize = 14;
 
+/// The path of the drive flank of a pair, and of its coast flank if that has its own load sharing.
+pub struct RatedFlanks {
+    drive: RatedPath,
+    coast: Option<RatedPath>,
+}
+
+impl RatedFlanks {
+    /// The paths of a pair; `None` if it has no involute flanks, or too many pairs in contact.
+    pub fn new(pair: &Pair, drive: &Sharing, coast: Option<&Sharing>) -> Option<Self> {
+        Some(Self {
+            drive: RatedPath::new(pair, drive)?,
+            coast: match coast {
+                Some(coast) => Some(RatedPath::new(pair, coast)?),
+                None => None,
+            },
+        })
+    }
+
+    /// The path of the flank in contact.
+    pub fn at(&self, at: &GearMeshAt<'_>) -> &RatedPath {
+        match (Flank::of(at.first_drives > 0.5, at.speed), &self.coast) {
+            (Flank::Coast, Some(coast)) => coast,
+            _ => &self.drive,
+        }
+    }
+}
+
 /// The path of a pair at the knots of its load sharing, with the greatest line load along the face; all have the same points.
 pub struct RatedPath {
     knots: Knots,
     paths: Vec<Path>,
+    /// Number of the point next to the pitch point.
+    pitch: usize,
 }
 
 impl RatedPath {
@@ -30,9 +59,14 @@ impl RatedPath {
                 shares.tables().iter().map(of).collect()
             }
         };
+        let paths = paths.ok()?;
+        let points = paths[0].points();
+        let distance = |i: usize| (points[i].x - pair.points[2]).abs();
+        let nearest = (0..points.len()).min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
         Some(Self {
             knots: sharing.knots(),
-            paths: paths.ok()?,
+            pitch: nearest.unwrap_or(0),
+            paths,
         })
     }
 
@@ -59,12 +93,8 @@ impl RatedPath {
     }
 
     /// Number of the point next to the pitch point.
-    pub fn at_pitch_point(&self, pair: &Pair) -> usize {
-        let points = self.points();
-        let distance = |i: usize| (points[i].x - pair.points[2]).abs();
-        (0..points.len())
-            .min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
-            .unwrap_or(0)
+    pub fn at_pitch_point(&self) -> usize {
+        self.pitch
     }
 }
 

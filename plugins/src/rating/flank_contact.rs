@@ -23,7 +23,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::at_least_unless_zero;
-use super::flank::{self, RatedPath};
+use super::flank::{self, RatedFlanks};
 
 pub(super) const AT_PITCH: Figure = Figure::greatest("p_HC", "MPa", "Hertzian pressure at the pitch point");
 pub(super) const PRESSURE: Figure =
@@ -74,14 +74,13 @@ fn one() -> f64 {
 /// The rating of a pair of flanks with its path.
 pub(super) struct Prepared {
     params: FlankContact,
-    path: Option<RatedPath>,
-    pitch: usize,
+    flanks: Option<RatedFlanks>,
 }
 
 fn prepare(params: FlankContact, cx: &mut Build<'_>) -> Result<Prepared, Diagnostic> {
     let part = cx.own_part::<GearMesh>()?.clone();
-    let sharing = cx.load_sharing(&part, &params.load_sharing)?;
-    Ok(Prepared::new(params, &part.pair, &sharing))
+    let (drive, coast) = cx.load_sharings(&part, &params.load_sharing)?;
+    Ok(Prepared::new(params, &part.pair, &drive, coast.as_ref()))
 }
 
 impl Rating<GearMesh> for Prepared {
@@ -92,17 +91,15 @@ impl Rating<GearMesh> for Prepared {
 }
 
 impl Prepared {
-    pub(super) fn new(params: FlankContact, pair: &Pair, sharing: &Sharing) -> Self {
-        let path = RatedPath::new(pair, sharing);
+    pub(super) fn new(params: FlankContact, pair: &Pair, drive: &Sharing, coast: Option<&Sharing>) -> Self {
         Self {
-            pitch: path.as_ref().map_or(0, |path| path.at_pitch_point(pair)),
-            path,
+            flanks: RatedFlanks::new(pair, drive, coast),
             params,
         }
     }
 
     pub(super) fn rate_flanks(&self, at: &GearMeshAt<'_>, to: &mut Rated) {
-        let Some(path) = &self.path else {
+        let Some(path) = self.flanks.as_ref().map(|flanks| flanks.at(at)) else {
             at.branch("no path of contact of involute flanks");
             return;
         };
@@ -118,7 +115,7 @@ impl Prepared {
             thinnest = thinnest.min(film(contact, params.film, params.thermal));
         });
         let whole = mean.part.pair.line_load(mean.normal_force);
-        let share = path.line(self.pitch, whole);
+        let share = path.line(path.at_pitch_point(), whole);
         at.show("F_bn", "N", mean.normal_force);
         at.show("rho_C", "mm", mean.radius.mm());
         let line_load = whole * share;

@@ -21,7 +21,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
 
-use super::flank::{self, RatedPath};
+use super::flank::{self, RatedFlanks};
 use crate::flank_heat::flanks;
 use crate::tooth_friction::ehl_mixed::contact::Contact;
 use crate::tooth_friction::ehl_mixed::temperature::blok;
@@ -80,10 +80,10 @@ fn one() -> f64 {
 /// The rating with the path of its mesh and its friction law.
 struct Prepared {
     params: FlashTemperature,
-    path: Option<RatedPath>,
+    flanks: Option<RatedFlanks>,
     friction: Slot<MeanFriction>,
-    /// `None` if those of a plastic are not known.
-    flanks: Option<[Conductor; 2]>,
+    /// Heat conduction of both flanks; `None` if that of a plastic is not known.
+    conductors: Option<[Conductor; 2]>,
 }
 
 fn prepare(params: FlashTemperature, cx: &mut Build<'_>) -> Result<Prepared, Diagnostic> {
@@ -91,10 +91,10 @@ fn prepare(params: FlashTemperature, cx: &mut Build<'_>) -> Result<Prepared, Dia
     let chosen = params.mean_friction.clone().unwrap_or_else(default);
     let friction = cx.slot("mean_friction", &chosen)?;
     let part = cx.own_part::<GearMesh>()?.clone();
-    let sharing = cx.load_sharing(&part, &params.load_sharing)?;
+    let (drive, coast) = cx.load_sharings(&part, &params.load_sharing)?;
     Ok(Prepared {
-        path: RatedPath::new(&part.pair, &sharing),
-        flanks: flanks(
+        flanks: RatedFlanks::new(&part.pair, &drive, coast.as_ref()),
+        conductors: flanks(
             [params.conductivity, params.density, params.heat_capacity],
             STEEL,
             &part,
@@ -108,7 +108,7 @@ fn prepare(params: FlashTemperature, cx: &mut Build<'_>) -> Result<Prepared, Dia
 
 impl Rating<GearMesh> for Prepared {
     fn rate(&self, at: &GearMeshAt<'_>, to: &mut Rated) -> Result<(), Undefined> {
-        let Some(path) = &self.path else {
+        let Some(path) = self.flanks.as_ref().map(|flanks| flanks.at(at)) else {
             at.branch("no path of contact of involute flanks");
             return Ok(());
         };
@@ -116,7 +116,7 @@ impl Rating<GearMesh> for Prepared {
             at.branch("no torque or no speed");
             return Ok(());
         }
-        let Some(flanks) = &self.flanks else {
+        let Some(conductors) = &self.conductors else {
             at.branch("the thermal properties of a plastic gear are not known: state those of its material");
             return Ok(());
         };
@@ -134,7 +134,7 @@ impl Rating<GearMesh> for Prepared {
                 contact.length,
                 speeds,
             );
-            let rise = blok(mu, &place, flanks);
+            let rise = blok(mu, &place, conductors);
             greatest = greatest.max(rise);
             let weight = path.points()[i].weight;
             sum += weight * rise;

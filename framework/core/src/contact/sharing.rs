@@ -24,7 +24,27 @@ use crate::mechanism::gear_mesh::MeshPart;
 use crate::real::Real;
 use modification::Gap;
 use slices::{MeshLoad, Slices};
-use stiffness::Stiffness;
+use stiffness::{Stiffness, StiffnessLaw};
+
+/// A flank of the first gear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Flank {
+    /// That in contact if the first gear drives forwards.
+    Drive,
+    /// The other one.
+    Coast,
+}
+
+impl Flank {
+    /// The flank in contact.
+    pub fn of(first_drives: bool, speed: f64) -> Self {
+        if first_drives == (speed >= 0.0) {
+            Self::Drive
+        } else {
+            Self::Coast
+        }
+    }
+}
 
 /// A load sharing, prepared for one pair.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,6 +74,17 @@ enum Coordinate {
     Load,
     /// That of the head of this file, with its load F_0. \[N/m\]
     Closing(f64),
+}
+
+impl Coordinate {
+    /// The line load at a place. \[N/m\]
+    fn load(self, place: f64) -> f64 {
+        match self {
+            Self::Load => place,
+            Self::Closing(unit) if place <= 1.0 => unit / place,
+            Self::Closing(unit) => unit * (2.0 - place),
+        }
+    }
 }
 
 /// The knots of a sharing.
@@ -123,28 +154,70 @@ impl Knots {
         sum
     }
 
-    /// The line loads of the knots. \[N/m\]
-    fn loads(&self) -> Vec<f64> {
-        let load = |place: &f64| match self.coordinate {
-            Coordinate::Load => *place,
-            Coordinate::Closing(unit) if *place <= 1.0 => unit / place,
-            Coordinate::Closing(unit) => unit * (2.0 - place),
-        };
-        self.places.iter().map(load).collect()
-    }
-
-    /// Knots in the middle between these, for checks.
-    fn middles(&self) -> Self {
-        Self {
-            coordinate: self.coordinate,
-            places: self.places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect(),
-        }
+    /// Line loads halfway between the knots, for checks. \[N/m\]
+    fn loads_between(&self) -> impl Iterator<Item = f64> {
+        let places = self.places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        places.map(|place| self.coordinate.load(place))
     }
 }
 
-/// Places of the knots. Teeth of constant stiffness that all touch need none between zero and one; the stiffness of a contact of Hertz and
-/// slices that open need some.
-const PLACES: [f64; 8] = [0.02, 0.35, 0.7, 1.0, 1.3, 1.6, 1.8, 1.93];
+/// Places of the first knots. More are added where the interpolation needs them: teeth of constant stiffness that all touch need none between
+/// zero and one; the stiffness of a contact of Hertz and slices that open need some.
+const PLACES: [f64; 3] = [0.02, 1.0, 1.93];
+
+/// Places of the first knots of flanks without modification, whose stiffness depends on the load.
+const PLACES_UNMODIFIED: [f64; 3] = [0.1, 1.0, 1.9];
+
+/// Greatest number of knots: a point has at most the friction of two, a batch of points with different loads that of all.
+const MOST_KNOTS: usize = 12;
+
+/// Relative error of the loss factor halfway between two knots below which no knot is added between them.
+pub const ACCURATE: f64 = 0.005;
+
+/// One load with the results of the slices under it.
+struct Knot {
+    place: f64,
+    mesh: MeshLoad,
+    table: ShareTable,
+}
+
+impl Knot {
+    fn new(slices: &Slices, coordinate: Coordinate, place: f64) -> Self {
+        let (mesh, table) = slices.mesh(coordinate.load(place));
+        Self { place, mesh, table }
+    }
+
+    fn between(slices: &Slices, coordinate: Coordinate, [low, high]: [&Self; 2]) -> Self {
+        Self::new(slices, coordinate, 0.5 * (low.place + high.place))
+    }
+
+    /// Knots from the first places on, with more of them where the loss factor between two is not accurate; and the greatest error that is
+    /// left.
+    fn enough(slices: &Slices, coordinate: Coordinate, places: &[f64]) -> (Vec<Self>, f64) {
+        let mut knots: Vec<Self> = places
+            .iter()
+            .map(|place| Self::new(slices, coordinate, *place))
+            .collect();
+        let between = |knots: &[Self], i: usize| Self::between(slices, coordinate, [&knots[i], &knots[i + 1]]);
+        let mut middles: Vec<Self> = (1..knots.len()).map(|i| between(&knots, i - 1)).collect();
+        loop {
+            let error = |(i, middle): (usize, &Self)| {
+                let linear = 0.5 * (knots[i].mesh.loss_factor + knots[i + 1].mesh.loss_factor);
+                (i, (linear / middle.mesh.loss_factor - 1.0).abs())
+            };
+            let worst = middles.iter().enumerate().map(error);
+            let Some((i, error)) = worst.max_by(|a, b| a.1.total_cmp(&b.1)) else {
+                return (knots, 0.0);
+            };
+            if error <= ACCURATE || knots.len() == MOST_KNOTS {
+                return (knots, error);
+            }
+            knots.insert(i + 1, middles.remove(i));
+            middles.insert(i, between(&knots, i + 1));
+            middles.insert(i, between(&knots, i));
+        }
+    }
+}
 
 /// Line load at which a stiffness that depends on the load has its middle knot. \[N/m\]
 const USUAL: f64 = 100e3;
@@ -216,39 +289,31 @@ impl LoadedShares {
     /// Shares of a pair in thin slices.
     pub fn from_slices(pair: &Pair, stiffness: &Stiffness, slices: &Slices) -> Self {
         let [.., end] = pair.points;
-        let opening = slices.gap().range() * stiffness.at(0.5 * (pair.points[0] + end), USUAL);
-        let knots = if slices.gap().is_none() || opening <= NO_GAP * 1e9 {
-            if stiffness.depends_on_load() {
-                Knots {
-                    coordinate: Coordinate::Closing(USUAL),
-                    places: vec![0.1, 1.0, 1.9],
-                }
-            } else {
-                Knots::ONE
-            }
-        } else {
-            Knots {
-                coordinate: Coordinate::Closing(opening),
-                places: PLACES.to_vec(),
-            }
+        let opening = slices.gap().under(USUAL).range() * stiffness.at(0.5 * (pair.points[0] + end), USUAL);
+        let is_closed = slices.gap().is_none() || opening <= NO_GAP * 1e9;
+        let (coordinate, places) = match is_closed {
+            false => (Coordinate::Closing(opening), &PLACES),
+            true => (Coordinate::Closing(USUAL), &PLACES_UNMODIFIED),
         };
-        let loads = if knots.places.is_empty() {
-            vec![USUAL]
+        let (found, mut error) = if is_closed && !stiffness.depends_on_load() {
+            (vec![Knot::new(slices, coordinate, 1.0)], 0.0)
         } else {
-            knots.loads()
+            Knot::enough(slices, coordinate, places)
         };
-        let (meshes, tables): (Vec<MeshLoad>, Vec<ShareTable>) = loads.iter().map(|load| slices.mesh(*load)).unzip();
-        let factors: Vec<f64> = meshes.iter().map(|mesh| mesh.loss_factor).collect();
-        let off = |value: f64, exact: f64| (value / exact - 1.0).abs();
-        let mut error = tables.iter().zip(&factors).fold(0.0_f64, |error, (table, factor)| {
-            error.max(off(table.loss_factor(pair), *factor))
-        });
-        for load in knots.middles().loads() {
-            let (mesh, _) = slices.mesh(load);
-            error = error.max(off(knots.between(load, &factors), mesh.loss_factor));
+        let knots = match &found[..] {
+            [_] => Knots::ONE,
+            several => Knots {
+                coordinate,
+                places: several.iter().map(|knot| knot.place).collect(),
+            },
+        };
+        let factors: Vec<f64> = found.iter().map(|knot| knot.table.loss_factor(pair)).collect();
+        for (knot, factor) in found.iter().zip(&factors) {
+            error = error.max((factor / knot.mesh.loss_factor - 1.0).abs());
         }
+        let (meshes, tables) = found.into_iter().map(|knot| (knot.mesh, knot.table)).unzip();
         Self {
-            factors: tables.iter().map(|table| table.loss_factor(pair)).collect(),
+            factors,
             knots,
             tables,
             meshes,
@@ -287,7 +352,7 @@ impl LoadedShares {
         let factors: Vec<f64> = tables.iter().map(|table| table.loss_factor(pair)).collect();
         let mut error = 0.0_f64;
         if let Kappa::OfAmount(unit) = kappa {
-            for load in knots.middles().loads() {
+            for load in knots.loads_between() {
                 let exact = relieved(pair, unit / load).loss_factor(pair);
                 error = error.max((knots.between(load, &factors) / exact - 1.0).abs());
             }
@@ -383,10 +448,16 @@ pub fn slices_of(part: &MeshPart, entry: &SlicesSharing) -> Result<(Stiffness, S
             "state the tip diameter of the ring, or choose a load sharing that is one word",
         ));
     }
-    let stiffness = Stiffness::new(pair, part.materials, entry.stiffness, entry.single_stiffness);
-    let stiffness =
-        stiffness.map_err(|fault| SharingFault::new(fault, "write `stiffness: iso6336`, which has one stiffness"))?;
-    let gap = Gap::new(pair, &part.flanks, part.misalignment).map_err(|(gear, key, fault)| {
+    let bodies = (part.materials, part.bores);
+    let stiffness = Stiffness::new(pair, bodies, entry.stiffness, entry.single_stiffness);
+    let help = match entry.stiffness {
+        StiffnessLaw::Sainsot if !pair.internal => {
+            "state `bore` of both gears below their root, or write `stiffness: weber`"
+        }
+        _ => "write `stiffness: iso6336`, which has one stiffness",
+    };
+    let stiffness = stiffness.map_err(|fault| SharingFault::new(fault, help))?;
+    let gap = Gap::new(pair, &part.flanks, (part.misalignment, part.yielding)).map_err(|(gear, key, fault)| {
         let which = if gear == 0 { "first" } else { "second" };
         SharingFault::new(
             format!("`{key}` of the {which} gear: {fault}"),
@@ -405,18 +476,21 @@ pub fn slices_of(part: &MeshPart, entry: &SlicesSharing) -> Result<(Stiffness, S
 }
 
 impl Sharing {
-    /// Prepares a sharing for a mesh; `bytes` reads a file that it names.
+    /// Prepares the sharing of a flank of a mesh; `bytes` reads a file that it names. `None` for a coast flank that has none of its own.
     ///
     /// # Errors
     /// A sharing that the mesh cannot have, or a faulty file.
     pub fn new(
         part: &MeshPart,
         entry: &SharingEntry,
+        flank: Flank,
         bytes: impl FnOnce(&str) -> Result<Arc<[u8]>, String>,
-    ) -> Result<Self, SharingFault> {
+    ) -> Result<Option<Self>, SharingFault> {
         let pair = &part.pair;
         let calculated = match entry {
-            SharingEntry::Fixed(sharing) => return Ok(Self::Fixed(*sharing)),
+            SharingEntry::Calculated(calculated @ CalculatedSharing::File { .. }) => calculated,
+            _ if flank == Flank::Coast => return Ok(None),
+            SharingEntry::Fixed(sharing) => return Ok(Some(Self::Fixed(*sharing))),
             SharingEntry::Calculated(calculated) => calculated,
         };
         let shares = match calculated {
@@ -447,14 +521,17 @@ impl Sharing {
                 let bytes = bytes(path).map_err(|reason| {
                     SharingFault::of_file(reason, "names of files are relative to the document that names them")
                 })?;
-                file::shares(pair, path, &bytes)?
+                match file::shares(pair, path, &bytes, flank)? {
+                    Some(shares) => shares,
+                    None => return Ok(None),
+                }
             }
             CalculatedSharing::Slices(entry) => {
                 let (stiffness, slices) = slices_of(part, entry)?;
                 LoadedShares::from_slices(pair, &stiffness, &slices)
             }
         };
-        Ok(Self::Loaded(Arc::new(shares)))
+        Ok(Some(Self::Loaded(Arc::new(shares))))
     }
 
     /// The knots: one for a sharing that does not depend on the load.

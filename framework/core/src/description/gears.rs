@@ -63,8 +63,11 @@ pub struct GearEntry {
     /// Material: a name of `materials`, or a designation of the catalogue. Default: that of its mesh.
     #[schemars(extend("x-refers-to" = "materials"))]
     pub material: Option<String>,
-    /// Reliefs, crowning and slopes of the flanks of a cylindrical gear, for `load_sharing: { type: slices }`.
+    /// Reliefs, crowning, slopes and pitch error of the flanks of a cylindrical gear, for `load_sharing: { type: slices }`.
     pub modification: Option<FlankModification>,
+    /// Diameter of the bore of a cylindrical gear, or of the shaft below its rim, for `stiffness: sainsot` of thin slices. [mm]
+    #[schemars(range(min = 0.1, max = 1e4))]
+    pub bore: Option<f64>,
     /// Oil height above the gear's axis, if it runs in a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
@@ -171,11 +174,16 @@ pub struct MeshEntry {
     #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
     #[schemars(range(min = 0.0, max = 0.49))]
     pub poisson: f64,
-    /// Misalignment of the flanks over the face width, from deflections and bores, for `load_sharing: { type: slices }`; positive if the end
+    /// Misalignment of the flanks over the face width, such as from bores, for `load_sharing: { type: slices }`; positive if the end
     /// of the face opens. [um]
     #[serde(default)]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub misalignment: f64,
+    /// Adds the misalignment by the deflection of both shafts and the stiffness of their bearings at the load, for `load_sharing: { type:
+    /// slices }`; requires `sections` of both shafts and a `rating`. The shift of the resultant force at the rating enters the loads of the
+    /// bearings.
+    #[serde(default)]
+    pub shaft_deflection: bool,
     /// Tip shortening maintains the tip clearance of external gears with profile shift.
     #[serde(default = "yes")]
     pub tip_shortening: bool,

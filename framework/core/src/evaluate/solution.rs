@@ -526,6 +526,11 @@ impl Solution<'_> {
         })
     }
 
+    /// Tangential force on the first gear of one copy of each mesh, signed; after those of the meshes those of strands. \[N\]
+    pub(crate) fn tangential_forces(&self) -> &[f64] {
+        &self.scratch.models.forces
+    }
+
     /// Forces of all teeth.
     fn teeth(&self) -> ToothForces<'_, f64> {
         ToothForces {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-use super::layout::Section;
+use super::layout::{Section, SupportLayout};
 
 /// Young's modulus, shear modulus and Poisson's ratio of steel.
 const STEEL: (f64, f64, f64) = (206e9, 79e9, 0.3);
@@ -16,6 +16,17 @@ pub(crate) struct BeamSupport {
     pub radial: Option<f64>,
     /// Tilting stiffness; `None`: zero. \[Nm/rad\]
     pub tilting: Option<f64>,
+}
+
+impl BeamSupport {
+    /// A support of a member.
+    pub fn of(seat: &SupportLayout) -> Self {
+        Self {
+            at: seat.at,
+            radial: seat.radial_stiffness,
+            tilting: seat.tilting_stiffness,
+        }
+    }
 }
 
 /// A load in one plane, or a reaction.
@@ -174,6 +185,11 @@ impl Beam {
     #[cfg(test)]
     pub(crate) fn deflection(&self, loads: &[BeamLoad], at: f64) -> f64 {
         self.deflections(loads).0[self.freedom[self.node(at)][0]]
+    }
+
+    /// Slope at a position where a load may act.
+    pub fn slope(&self, loads: &[BeamLoad], at: f64) -> f64 {
+        self.deflections(loads).0[self.freedom[self.node(at)][1]]
     }
 
     /// Reactions of the supports to loads in one plane.

@@ -1,6 +1,7 @@
 //! Bearing loads: unit cases solved once, combined at every point.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::SupportLoad;
 use super::layout::{Layout, LoadFault, MemberLayout, Senses, SupportLayout};
@@ -12,6 +13,7 @@ use crate::real::{Points, Real};
 /// Loads of all supports as a function of the tangential force of each mesh.
 #[derive(Debug, Clone)]
 pub struct ShaftLoads {
+    layout: Arc<Layout>,
     /// Reactions by support.
     pub(super) cases: Vec<Cases>,
     /// Supports whose outer member is the carried one.
@@ -361,12 +363,18 @@ impl ShaftLoads {
             }
         }
         Ok(Self {
+            layout: Arc::new(layout.clone()),
             cases,
             turned,
             order,
             groups,
             group_of,
         })
+    }
+
+    /// What the loads were calculated from.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
     }
 
     /// Length of the scratch of [`ShaftLoads::evaluate`].
@@ -628,7 +636,7 @@ fn always(member: &MemberLayout) -> Vec<Action> {
 }
 
 /// The static systems of all members.
-struct System<'a> {
+pub(super) struct System<'a> {
     layout: &'a Layout,
     /// Supports by number of each member that they carry, as it sees them.
     own: Vec<Vec<(usize, SupportLayout)>>,
@@ -646,7 +654,43 @@ struct System<'a> {
 }
 
 impl<'a> System<'a> {
-    fn new(layout: &'a Layout) -> Result<Self, Vec<LoadFault>> {
+    /// What the members are.
+    pub(super) fn layout(&self) -> &Layout {
+        self.layout
+    }
+
+    /// Supports of a member that take radial forces, by number.
+    pub(super) fn radial(&self, member: usize) -> &[(usize, SupportLayout)] {
+        &self.radial[member]
+    }
+
+    /// What acts on each member under the tangential forces of all meshes, with the permanent loads and what the members that it carries pass
+    /// on. \[N\]
+    pub(super) fn actions(&self, tangential: &[f64]) -> Vec<Vec<Action>> {
+        let permanent = self.layout.members.iter().map(always).enumerate();
+        let meshes = self.layout.meshes.iter().zip(tangential);
+        let teeth = meshes.flat_map(|(mesh, force)| {
+            let gears = (0..2).filter(|gear| !mesh.is_central(*gear));
+            gears.map(move |gear| {
+                let [along, of_size] = mesh.forces(gear);
+                let member = mesh.members()[gear];
+                let action = Action {
+                    at: mesh.at(gear, self.layout.members[member].start),
+                    arm: mesh.arm(gear),
+                    force: std::array::from_fn(|axis| force * along[axis] + force.abs() * of_size[axis]),
+                    moment: [0.0; 2],
+                };
+                (member, vec![action])
+            })
+        });
+        let mut all = vec![Vec::new(); self.layout.members.len()];
+        self.pass(permanent.chain(teeth), |member, actions, _| {
+            all[member].extend_from_slice(actions)
+        });
+        all
+    }
+
+    pub(super) fn new(layout: &'a Layout) -> Result<Self, Vec<LoadFault>> {
         let n = layout.members.len();
         let mut own: Vec<Vec<(usize, SupportLayout)>> = vec![Vec::new(); n];
         let mut radial = own.clone();
@@ -851,16 +895,30 @@ impl<'a> System<'a> {
 
     /// Reactions of supports to actions on some members: of these members and of those that carry them. All others are zero.
     fn reactions(&self, actions: impl IntoIterator<Item = (usize, Vec<Action>)>) -> Vec<(usize, Reaction)> {
+        let mut reactions = Vec::new();
+        self.pass(actions, |member, _, found| {
+            let supports = self.radial[member].iter().map(|(support, _)| *support);
+            reactions.extend(supports.zip(found.iter().copied()));
+        });
+        reactions
+    }
+
+    /// Goes through the members on which something acts, from the supported to the supporting, with all that acts on them and the reactions
+    /// of their supports.
+    fn pass(
+        &self,
+        actions: impl IntoIterator<Item = (usize, Vec<Action>)>,
+        mut each: impl FnMut(usize, &[Action], &[Reaction]),
+    ) {
         let mut open: BTreeMap<usize, Vec<Action>> = BTreeMap::new();
         for (member, actions) in actions {
             open.entry(self.places[member]).or_default().extend(actions);
         }
-        let mut reactions = Vec::new();
         while let Some((place, actions)) = open.pop_first() {
             let m = self.order[place];
             let found = self.statics[m].reactions(&actions);
-            for ((support, seat), reaction) in self.radial[m].iter().zip(found) {
-                reactions.push((*support, reaction));
+            each(m, &actions, &found);
+            for ((_, seat), reaction) in self.radial[m].iter().zip(&found) {
                 // Planets of one set balance each other on their carrier.
                 if let (Some(carrier), None) = (seat.outer, self.layout.members[m].planet) {
                     open.entry(self.places[carrier]).or_default().push(Action {
@@ -872,8 +930,8 @@ impl<'a> System<'a> {
                 }
             }
         }
-        reactions
     }
+
     /// Axial forces on each member, in the order.
     fn axial(mut self) -> Vec<(Axially, bool)> {
         let takings = std::mem::take(&mut self.takings);

@@ -17,6 +17,17 @@ pub(crate) struct Action {
 }
 
 impl Action {
+    /// The load in the plane of y (1) or of z (2).
+    pub fn in_plane(&self, axis: usize) -> BeamLoad {
+        let [my, mz] = self.couple();
+        BeamLoad {
+            at: self.at,
+            force: self.force[axis],
+            // The slope in the plane of z is minus the rotation about y.
+            moment: if axis == 1 { mz } else { -my },
+        }
+    }
+
     /// Couple of the axial force about y and z, with the free moment. \[Nm\]
     pub fn couple(&self) -> [f64; 2] {
         [
@@ -82,14 +93,7 @@ impl Statics {
                 }
             }
             _ => {
-                let beam_supports: Vec<BeamSupport> = supports
-                    .iter()
-                    .map(|(_, s)| BeamSupport {
-                        at: s.at,
-                        radial: s.radial_stiffness,
-                        tilting: s.tilting_stiffness,
-                    })
-                    .collect();
+                let beam_supports: Vec<BeamSupport> = supports.iter().map(|(_, s)| BeamSupport::of(s)).collect();
                 match Beam::new(&member.sections, &beam_supports, &member.hinges, actions, member.shear) {
                     Ok(beam) => Ok(Self::Beam(Box::new(beam))),
                     Err(BeamFault::Mechanism) => Err(mechanism()),
@@ -138,21 +142,7 @@ impl Statics {
                 ]
             }
             Self::Beam(beam) => {
-                let plane = |axis: usize| -> Vec<BeamLoad> {
-                    actions
-                        .iter()
-                        .map(|a| {
-                            let [my, mz] = a.couple();
-                            // The slope in the plane of z is minus the rotation about y.
-                            let moment = if axis == 1 { mz } else { -my };
-                            BeamLoad {
-                                at: a.at,
-                                force: a.force[axis],
-                                moment,
-                            }
-                        })
-                        .collect()
-                };
+                let plane = |axis: usize| -> Vec<BeamLoad> { actions.iter().map(|a| a.in_plane(axis)).collect() };
                 let (y, z) = (beam.reactions(&plane(1)), beam.reactions(&plane(2)));
                 y.iter()
                     .zip(&z)

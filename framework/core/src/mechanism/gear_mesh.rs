@@ -83,6 +83,9 @@ pub struct PairEntry {
     pub materials: Option<[MaterialEntry; 2]>,
     /// Modifications of the flanks of both gears, for load sharing in thin slices.
     pub modification: Option<[FlankModification; 2]>,
+    /// Diameters of the bores of both gears, for `stiffness: sainsot` of thin slices. [mm]
+    #[schemars(inner(range(min = 0.1, max = 1e4)))]
+    pub bore: Option<[f64; 2]>,
     /// Misalignment of the flanks over the face width, positive if the end of the face opens. [um]
     #[serde(default)]
     #[schemars(range(min = -1000.0, max = 1000.0))]
@@ -126,8 +129,12 @@ pub struct MeshPart {
     pub gears: [Material; 2],
     /// Modifications of the flanks of both gears.
     pub flanks: [FlankModification; 2],
+    /// Diameters of the bores of both gears, if they are stated. \[m\]
+    pub bores: [Option<f64>; 2],
     /// Misalignment of the flanks over the face width, positive if the end of the face opens. \[m\]
     pub misalignment: f64,
+    /// Misalignment by the deflection of the shafts per tangential force at the base circle over the face width. \[m2/N\]
+    pub yielding: f64,
     /// The oil of the mesh, for models that need it at other temperatures and pressures; `None` for a single model.
     pub oil: Option<MeshOil>,
 }
@@ -165,7 +172,9 @@ impl MeshPart {
             materials: elastic,
             gears: materials,
             flanks: [FlankModification::default(); 2],
+            bores: [None; 2],
             misalignment: 0.0,
+            yielding: 0.0,
             oil: None,
         }
     }
@@ -182,6 +191,26 @@ impl MeshPart {
             misalignment,
             ..self
         }
+    }
+
+    /// The pair misaligned by its shafts in addition: without torque, and per tangential force at the base circle over the face width.
+    /// \[m, m2/N\]
+    pub fn leaning(self, constant: f64, per_line_load: f64) -> Self {
+        Self {
+            misalignment: self.misalignment + constant,
+            yielding: per_line_load,
+            ..self
+        }
+    }
+
+    /// Misalignment of the flanks over the face width under a tangential force at the base circle over the face width. \[m and N/m\]
+    pub fn misalignment_under(&self, line_load: f64) -> f64 {
+        self.misalignment + self.yielding * line_load
+    }
+
+    /// The pair with the diameters of the bores of both gears. \[m\]
+    pub fn with_bores(self, bores: [Option<f64>; 2]) -> Self {
+        Self { bores, ..self }
     }
 
     /// The pair with its oil.
@@ -261,7 +290,8 @@ impl TryFrom<PairEntry> for MeshPart {
             None => [Material::metal(entry.elastic_modulus, entry.poisson); 2],
         };
         let part = Self::of_materials(pair, entry.ra, entry.rq, materials);
-        Ok(part.with_flanks(flanks, entry.misalignment))
+        let bores = entry.bore.map_or([None; 2], |bores| bores.map(Some));
+        Ok(part.with_flanks(flanks, entry.misalignment).with_bores(bores))
     }
 }
 

@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::{Entry, Memory, Registry, from_resolved};
 use crate::attach::dangling;
 use crate::codes;
-use crate::contact::sharing::{CalculatedSharing, Sharing, SharingEntry};
+use crate::contact::sharing::{ACCURATE, CalculatedSharing, Flank, Sharing, SharingEntry, SharingFault};
 use crate::document::{Diagnostic, did_you_mean};
 use crate::files::{Disk, InMemory, LONGEST_DATA, SharedSource};
 use crate::loss::{NoteBase, Term};
@@ -21,9 +21,6 @@ use crate::mechanism::mean_friction::MeanFriction;
 use crate::mechanism::tooth_friction::ToothFriction;
 use crate::mechanism::{Mechanism, ModelRef, Slot};
 use crate::rating::{Rating, RatingSlot};
-
-/// Relative error of the loss factor between the knots of a load sharing above which it is doubted.
-const MOST_SHARING_ERROR: f64 = 0.02;
 
 /// Files named by a description, read once; paths are relative to the document that names them.
 #[derive(Debug)]
@@ -297,14 +294,35 @@ impl<'a> Build<'a> {
         })
     }
 
-    /// The load sharing of the mesh to which the model belongs, from its parameter `load_sharing`. Where it corrects a file, or is not accurate
-    /// between its knots, it is doubted.
+    /// The load sharing of the mesh to which the model belongs, from its parameter `load_sharing`, for a model that does not distinguish both
+    /// flanks. Where it corrects a file, or is not accurate between its knots, it is doubted.
+    ///
+    /// # Errors
+    /// A sharing that the mesh cannot have, a faulty file, or one with both flanks.
+    pub fn load_sharing(&mut self, part: &MeshPart, entry: &SharingEntry) -> Result<Sharing, Diagnostic> {
+        let (drive, coast) = self.load_sharings(part, entry)?;
+        if coast.is_some() {
+            let message = "this model does not know which flanks touch, and the file has shares of both";
+            let help =
+                "name a file without the column `flank`, or use a mesh model that integrates along the path of contact";
+            return Err(Diagnostic::error(format!("{}.load_sharing", self.path), message)
+                .code(codes::SHARES_OF_FLANKS)
+                .help(help));
+        }
+        Ok(drive)
+    }
+
+    /// The same for the drive flank of the first gear, and for its coast flank if that has its own.
     ///
     /// # Errors
     /// A sharing that the mesh cannot have, or a faulty file.
-    pub fn load_sharing(&mut self, part: &MeshPart, entry: &SharingEntry) -> Result<Sharing, Diagnostic> {
+    pub fn load_sharings(
+        &mut self,
+        part: &MeshPart,
+        entry: &SharingEntry,
+    ) -> Result<(Sharing, Option<Sharing>), Diagnostic> {
         if let SharingEntry::Fixed(sharing) = entry {
-            return Ok(Sharing::Fixed(*sharing));
+            return Ok((Sharing::Fixed(*sharing), None));
         }
         let files = self.files;
         let bytes = match entry {
@@ -313,11 +331,17 @@ impl<'a> Build<'a> {
         };
         let input = (part.clone().with_oil(None), entry.clone(), bytes);
         let prepared = self.repeat("load sharing", input, |(part, entry, bytes)| {
-            Sharing::new(part, entry, |_| bytes.clone().unwrap_or_else(|| Err(String::new())))
+            let of = |flank| {
+                Sharing::new(part, entry, flank, |_| {
+                    bytes.clone().unwrap_or_else(|| Err(String::new()))
+                })
+            };
+            Ok::<_, SharingFault>((of(Flank::Drive)?, of(Flank::Coast)?))
         });
         let path = format!("{}.load_sharing", self.path);
-        let sharing = prepared.map_err(|fault| fault.at(&path))?;
-        if let Sharing::Loaded(shares) = &sharing {
+        let (drive, coast) = prepared.map_err(|fault| fault.at(&path))?;
+        for sharing in [&drive, &coast].into_iter().flatten() {
+            let Sharing::Loaded(shares) = sharing else { continue };
             if shares.deviation() > 1e-3 {
                 let message = format!(
                     "the shares of the file add up to the whole force within {:.2} %; they are corrected",
@@ -328,9 +352,9 @@ impl<'a> Build<'a> {
                     Diagnostic::warning("", message).code(codes::SHARES_CORRECTED),
                 );
             }
-            if shares.error() > MOST_SHARING_ERROR {
+            if shares.error() > ACCURATE {
                 let message = format!(
-                    "between the loads at which the shares are calculated, the loss factor is interpolated within {:.1} %",
+                    "between the loads at which the shares are calculated, the loss factor is interpolated within {:.2} %",
                     shares.error() * 100.0
                 );
                 self.doubt(
@@ -339,7 +363,8 @@ impl<'a> Build<'a> {
                 );
             }
         }
-        Ok(sharing)
+        let drive = drive.ok_or_else(|| self.error("bug: the drive flank has no load sharing"))?;
+        Ok((drive, coast))
     }
 
     /// Has the context of the model show what flows through an element of the oil network, by its section, such as `nozzles`, and its name.

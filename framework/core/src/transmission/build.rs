@@ -5,6 +5,7 @@ use super::drag_models::Drags;
 use super::drags::Covered;
 use super::gearing::gearing;
 use super::grease;
+use super::lean::{self, Lean};
 use super::materials;
 use super::members::Members;
 use super::nodes::{HeatPath, NodeNames, unmet};
@@ -72,11 +73,30 @@ impl Transmission {
         language: &Language,
         files: &Files,
         resolved: &Resolved,
+        memory: Memory,
+    ) -> Result<(Self, Memory), Vec<Diagnostic>> {
+        let (built, memory) = Self::with_leans(language, files, resolved, memory, &[])?;
+        let Some(entry) = memory.get::<GearboxEntry>(ENTRY).filter(|entry| lean::is_wanted(entry)) else {
+            return Ok((built, memory));
+        };
+        // How shafts deflect is known when the forces of all meshes are.
+        let leans = lean::leans(&built, entry, &resolved.value)?;
+        Self::with_leans(language, files, resolved, memory, &leans)
+    }
+
+    /// The same with what the deflection of the shafts does to each mesh; empty: nothing.
+    fn with_leans(
+        language: &Language,
+        files: &Files,
+        resolved: &Resolved,
         mut memory: Memory,
+        leans: &[Lean],
     ) -> Result<(Self, Memory), Vec<Diagnostic>> {
         let mut found = Vec::new();
         let mut warnings = Vec::new();
-        let frame = Frame::new(language, resolved, &mut memory, &mut found, &mut warnings)?;
+        let mut frame = Frame::new(language, resolved, &mut memory, &mut found, &mut warnings)?;
+        frame.leans = leans.to_vec();
+        let frame = frame;
         let (entry, members, ports) = (&frame.entry, &frame.members, &frame.ports);
         let mut oils = frame.oils(resolved, &mut memory);
         let mut build = Build::again(language.registry(), files, memory);
@@ -299,6 +319,8 @@ struct Frame {
     nodes: NodeNames,
     /// What is described on each member beside gears.
     described: Vec<Described>,
+    /// What the deflection of the shafts does to each mesh; empty: nothing.
+    leans: Vec<Lean>,
 }
 
 impl Frame {
@@ -349,6 +371,7 @@ impl Frame {
             sharing,
             nodes,
             described,
+            leans: Vec::new(),
         })
     }
 }
@@ -466,7 +489,7 @@ impl Models {
         shaft_loads(
             &frame.entry,
             &frame.members,
-            (&frame.meshes, &frame.transfers),
+            (&frame.meshes, &frame.transfers, &frame.leans),
             supports,
             memory,
             found,
@@ -948,14 +971,12 @@ fn mesh_models(
         let oil = oils.oil(&seat.path, &common);
         let materials = materials_of(&frame.gears, seat.gears, written.elastic_modulus, written.poisson);
         let part = MeshPart::of_materials(teeth.pair, seat.ra, seat.rq, materials);
-        let flanks = [0, 1].map(|i| {
-            frame
-                .entry
-                .gears
-                .get(&written.gears[i])
-                .and_then(|gear| gear.modification)
-        });
-        let part = part.with_flanks(flanks.map(Option::unwrap_or_default), written.misalignment);
+        let gears = [0, 1].map(|i| frame.entry.gears.get(&written.gears[i]));
+        let flanks = gears.map(|gear| gear.and_then(|gear| gear.modification).unwrap_or_default());
+        let lean = frame.leans.get(i).copied().unwrap_or_default();
+        let part = part.with_flanks(flanks, written.misalignment);
+        let part = part.leaning(lean.constant, lean.per_line_load);
+        let part = part.with_bores(gears.map(|gear| gear.and_then(|gear| gear.bore)));
         let part = build.part_again(&seat.path, part.with_oil(oil.and_then(|oil| oils.lubricant(oil))));
         match build.slot_at::<GearMesh>(&[&seat.path, ".model"].concat(), &part, &choice.value) {
             Ok(model) => {

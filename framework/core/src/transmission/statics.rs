@@ -6,6 +6,7 @@ use std::sync::Arc;
 use nalgebra::Vector3;
 
 use super::crossed::{CrossedTeeth, Wrench};
+use super::lean::Lean;
 use super::members::Members;
 use super::pairs::{Design, NotCounted};
 use super::preloads;
@@ -107,7 +108,7 @@ impl Imported {
 pub fn shaft_loads(
     entry: &GearboxEntry,
     members: &Members,
-    (meshes, transfers): (&[MeshSeat], &[TransferSeat]),
+    (meshes, transfers, leans): (&[MeshSeat], &[TransferSeat], &[Lean]),
     (supports, designs): (&[SeatedSupport], &[Design]),
     memory: &mut Memory,
     found: &mut Vec<Diagnostic>,
@@ -124,6 +125,11 @@ pub fn shaft_loads(
             .collect(),
         meshes: meshes.iter().map(|mesh| mesh_layout(mesh, entry, members)).collect(),
     };
+    for (mesh, lean) in layout.meshes.iter_mut().zip(leans) {
+        if let MeshLayout::Cylindrical(teeth) = mesh {
+            teeth.at += lean.shift;
+        }
+    }
     for seat in transfers {
         let Some(strands) = &seat.strands else { continue };
         layout.meshes.push(strands.layout(seat.members));

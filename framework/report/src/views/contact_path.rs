@@ -74,8 +74,14 @@ fn text(name: &str, path: &ContactPath, page: &mut Page) {
             load.face_load_factor,
             load.loss_factor
         ));
+        let shafts = if load.shift_is_in_shaft_loads {
+            "the loads on the shafts have that at the rating"
+        } else {
+            "which the loads on the shafts neglect"
+        };
         page.line(format!(
-            "the resultant force is {:.1} % of half of the face width from its middle, which the loads on the shafts neglect",
+            "the misalignment is {:.2} um; the resultant force is {:.1} % of half of the face width from its middle, {shafts}",
+            load.misalignment_um,
             load.shift_of_resultant * 100.0
         ));
         if load.least_touching < 0.5 {

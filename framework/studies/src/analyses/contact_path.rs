@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use gearloss_framework::attach::dangling;
 use gearloss_framework::contact::path::Path;
-use gearloss_framework::contact::sharing::{CalculatedSharing, Sharing, SharingEntry, slices_of};
+use gearloss_framework::contact::sharing::slices::Slices;
+use gearloss_framework::contact::sharing::{CalculatedSharing, Flank, Sharing, SharingEntry, slices_of};
 use gearloss_framework::contact::{Film, film};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::Point;
 use gearloss_framework::flow::Tolerance;
-use gearloss_framework::geometry::{Line, LoadSharing, ShareTable};
+use gearloss_framework::geometry::{Line, LoadSharing, Pair, ShareTable};
 use gearloss_framework::loss::Notes;
 use gearloss_framework::mechanism::Answers as _;
 use gearloss_framework::mechanism::gear_mesh::{GearMeshAt, MeshPart};
@@ -113,6 +114,10 @@ impl ContactPath {
         self.mesh_load.iter().flat_map(|load| &load.plane)
     }
 
+    fn file(&self) -> impl Iterator<Item = &ShareOfFile> {
+        self.mesh_load.iter().flat_map(|load| &load.file)
+    }
+
     fn phases(&self) -> impl Iterator<Item = &PhaseOfMesh> {
         self.mesh_load.iter().flat_map(|load| &load.phases)
     }
@@ -131,17 +136,67 @@ pub struct MeshUnderLoad {
     pub greatest_line_load_n_mm: f64,
     /// Mean over time of the line load along the face: the greatest over the mean. [-]
     pub face_load_factor: f64,
-    /// Distance of the resultant force from the middle of the face, over half of the face width, positive towards its end; it is neglected in
-    /// the loads on the shaft. [-]
+    /// Misalignment of the flanks over the face width at this load: as stated, and by the deflection of the shafts. [um]
+    pub misalignment_um: f64,
+    /// Distance of the resultant force from the middle of the face, over half of the face width, positive towards its end. [-]
     pub shift_of_resultant: f64,
+    /// True if the loads on shafts and bearings have the shift at the rating, because of `shaft_deflection`; else they neglect it.
+    pub shift_is_in_shaft_loads: bool,
     /// Least share of the flanks on the path that touch. [-]
     pub least_touching: f64,
     /// Local tooth loss factor. [-]
     pub loss_factor: f64,
-    /// Transmission error over one base pitch, from the first contact of a pair.
+    /// Transmission error over one base pitch, from the first contact of a pair; over two with a pitch error, from that of one that does not
+    /// lag.
     pub phases: Vec<PhaseOfMesh>,
-    /// Load over the plane of action.
+    /// Load over the plane of action; with a pitch error the mean of both pairs.
     pub plane: Vec<PlaceOnPlane>,
+    /// The shares as rows of a file for `load_sharing: { type: file }`, at half, the whole and twice the torque.
+    #[serde(skip)]
+    pub file: Vec<ShareOfFile>,
+}
+
+/// A row of a file of shares.
+#[derive(Debug, Clone, Copy)]
+pub struct ShareOfFile {
+    /// Torque of the first gear. [Nm]
+    pub torque: f64,
+    /// Place from the first to the last contact if the first gear drives. [-]
+    pub path: f64,
+    /// Place on the face. [-]
+    pub face: f64,
+    /// Line load over that of one pair alone. [-]
+    pub share: f64,
+}
+
+/// Places along the path in a file of shares, without those beside jumps.
+const FILE: usize = 161;
+
+/// The rows of a file of shares.
+fn file_rows(pair: &Pair, slices: &Slices, line_load: f64) -> Vec<ShareOfFile> {
+    let [start, .., end] = pair.points;
+    let places = slices.places_with_jumps(FILE);
+    let mut rows = Vec::new();
+    for load in [0.5, 1.0, 2.0].map(|part| part * line_load) {
+        for (x, lines) in slices.plane(load, &places) {
+            // A file has at least two places on the face.
+            let faces: Vec<(f64, f64)> = match &lines[..] {
+                [only] => vec![(0.0, *only), (1.0, *only)],
+                lines => {
+                    let count = lines.len() as f64;
+                    let face = |(j, line): (usize, &f64)| ((j as f64 + 0.5) / count, *line);
+                    lines.iter().enumerate().map(face).collect()
+                }
+            };
+            rows.extend(faces.into_iter().map(|(face, line)| ShareOfFile {
+                torque: load * pair.base_radius[0] * pair.facewidth,
+                path: (x - start) / (end - start),
+                face,
+                share: line / load,
+            }));
+        }
+    }
+    rows
 }
 
 /// The mesh at one phase.
@@ -383,10 +438,10 @@ impl ContactPathEntry {
         let mean = MeanFrictionAt::at_pitch_point(at, Notes::MUTED);
         let places = self.places as usize;
         let line_load = part.pair.line_load(mean.normal_force);
-        let fine = match build
-            .load_sharing(&part, sharing)
-            .map_err(|error| cx.found(vec![error]))?
-        {
+        let flank = Flank::of(at.first_drives > 0.5, at.speed);
+        let sharings = build.load_sharings(&part, sharing);
+        let (drive, coast) = sharings.map_err(|error| cx.found(vec![error]))?;
+        let fine = match coast.filter(|_| flank == Flank::Coast).unwrap_or(drive) {
             Sharing::Fixed(sharing) => Path::even(&part.pair, sharing, places),
             Sharing::Loaded(shares) => {
                 let table = under_load(&part, sharing, line_load).unwrap_or_else(|| {
@@ -444,9 +499,9 @@ fn mesh_load(at: &GearMeshAt<'_>, sharing: &SharingEntry) -> Option<MeshUnderLoa
     let line_load = pair.line_load(pair.normal_force(at.torque));
     let (_, slices) = slices_of(part, entry).ok().filter(|_| line_load > 0.0)?;
     let (mesh, _) = slices.mesh(line_load);
-    let number = mesh.delta.len() as f64;
+    let (number, period) = (mesh.delta.len() as f64, slices.period() as f64);
     let phase = |(i, delta): (usize, &f64)| PhaseOfMesh {
-        base_pitches: (i as f64 + 0.5) / number,
+        base_pitches: (i as f64 + 0.5) / number * period,
         transmission_error_um: delta * 1e6,
     };
     let plane = slices
@@ -468,11 +523,14 @@ fn mesh_load(at: &GearMeshAt<'_>, sharing: &SharingEntry) -> Option<MeshUnderLoa
         transmission_error_range_um: mesh.peak_to_peak() * 1e6,
         greatest_line_load_n_mm: mesh.greatest * 1e-3,
         face_load_factor: mesh.face_factor,
+        misalignment_um: part.misalignment_under(line_load) * 1e6,
         shift_of_resultant: mesh.shift,
+        shift_is_in_shaft_loads: part.yielding != 0.0,
         least_touching: mesh.least_touching,
         loss_factor: mesh.loss_factor,
         phases: mesh.delta.iter().enumerate().map(phase).collect(),
         plane: plane.collect(),
+        file: file_rows(pair, &slices, line_load),
     })
 }
 
@@ -517,6 +575,24 @@ impl Outcome for ContactPathOutcome {
         let mut tables = vec![table.finish()];
         if self.paths.iter().any(|path| path.mesh_load.is_some()) {
             tables.extend([plane.finish(), phases.finish()]);
+        }
+        for path in self.paths.iter().filter(|path| path.mesh_load.is_some()) {
+            let name = format!("{}-shares-{}", self.head.analysis, path.model_set);
+            let shares = Table::of_each(name, std::slice::from_ref(path), ContactPath::file);
+            // The headings are those that a file of shares has.
+            let shares = shares
+                .number("torque [Nm]", "Nm", "Torque of the first gear", |(_, row)| row.torque)
+                .number(
+                    "path [-]",
+                    "-",
+                    "Place from the first to the last contact if the first gear drives",
+                    |(_, row)| row.path,
+                )
+                .number("face [-]", "-", "Place on the face", |(_, row)| row.face)
+                .number("share [-]", "-", "Line load over that of one pair alone", |(_, row)| {
+                    row.share
+                });
+            tables.push(shares.finish());
         }
         tables
     }

@@ -30,6 +30,8 @@ pub struct SharingAtRating {
     pub sliced_loss_w: Option<f64>,
     /// True if no modification and no misalignment is stated.
     pub unmodified: bool,
+    /// Misalignment of the flanks over the face width, if that by the deflection of the shafts is in it. [um]
+    pub shaft_misalignment_um: Option<f64>,
 }
 
 impl SharingAtRating {
@@ -42,6 +44,7 @@ impl SharingAtRating {
             loss_w,
             sliced_loss_w,
             unmodified,
+            shaft_misalignment_um,
         } = self;
         let stated = if *unmodified {
             ", with no modification stated"
@@ -50,7 +53,9 @@ impl SharingAtRating {
         };
         let sliced = sliced_loss_w.map(|watts| format!("; by slices {watts:.1} W"));
         let sliced = sliced.unwrap_or_default();
-        format!("at the rated torque in `{gear}`: {mesh}: `{load_sharing}`: {loss_w:.1} W{sliced}{stated}")
+        let leans = shaft_misalignment_um.map(|um| format!(", misaligned by {um:.1} um with its shafts"));
+        let leans = leans.unwrap_or_default();
+        format!("at the rated torque in `{gear}`: {mesh}: `{load_sharing}`: {loss_w:.1} W{sliced}{stated}{leans}")
     }
 }
 
@@ -128,6 +133,12 @@ fn sharing(
         load_sharing: written.as_str().or_else(|| written["type"].as_str())?.to_owned(),
         loss_w: loss(model)?,
         sliced_loss_w: if is_sliced { None } else { Some(loss(&other)?) },
-        unmodified: part.misalignment == 0.0 && part.flanks.iter().all(|flank| *flank == FlankModification::default()),
+        shaft_misalignment_um: (part.yielding != 0.0).then(|| {
+            let line_load = part.pair.line_load(part.pair.normal_force(at.torque));
+            part.misalignment_under(line_load) * 1e6
+        }),
+        unmodified: part.misalignment == 0.0
+            && part.yielding == 0.0
+            && part.flanks.iter().all(|flank| *flank == FlankModification::default()),
     })
 }

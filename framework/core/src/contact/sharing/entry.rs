@@ -61,7 +61,7 @@ pub struct SlicesSharing {
     /// Law of the stiffness of one pair of teeth.
     #[serde(default)]
     pub stiffness: StiffnessLaw,
-    /// Stiffness of one pair per face width, instead of that of ISO 6336-1; 1 GPa is 1 N/(mm um). No effect with `weber`. [GPa]
+    /// Stiffness of one pair per face width, instead of that of ISO 6336-1; 1 GPa is 1 N/(mm um). No effect with `weber` and `sainsot`. [GPa]
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.001, max = 1000.0))]
     pub single_stiffness: Option<f64>,

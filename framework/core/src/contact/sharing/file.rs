@@ -1,6 +1,6 @@
 //! Shares over the plane of action from a file.
 
-use super::{Coordinate, Knots, LoadedShares, SharingFault};
+use super::{Coordinate, Flank, Knots, LoadedShares, SharingFault};
 use crate::geometry::{Pair, ShareRow, ShareTable};
 use crate::table::{Axis, Outside, Reading, Table};
 
@@ -11,8 +11,8 @@ const CORRECTED: f64 = 0.02;
 const PHASES: usize = 200;
 const FACES: usize = 40;
 
-const COLUMNS: &str = "the columns are `torque [Nm]` (absent: valid for every torque), `path [-]` from 0 to 1, `face [-]` from 0 to 1 \
-                       (absent: the mean over the face), and `share [-]` or `line load [N/mm]`, in this order";
+const COLUMNS: &str = "the columns are `flank` (absent: valid for both flanks), `torque [Nm]` (absent: valid for every torque), `path [-]` from 0 \
+                       to 1, `face [-]` from 0 to 1 (absent: the mean over the face), and `share [-]` or `line load [N/mm]`, in this order";
 
 /// The file of a pair.
 struct Imported<'a> {
@@ -113,13 +113,31 @@ fn axis(axes: &[Axis], name: &str, units: &[&str]) -> Result<Option<usize>, Stri
     Ok(found)
 }
 
-fn read<'a>(pair: &'a Pair, bytes: &[u8]) -> Result<Imported<'a>, String> {
+/// The table of a flank; `None` for the coast flank of a file that has none of its own.
+fn table_of(bytes: &[u8], flank: Flank) -> Result<Option<Table>, String> {
     let reading = Reading {
         outside: Outside::Clamp,
         ..Reading::default()
     };
+    let tables = Table::by_word(bytes, &reading, "flank")?;
+    let wanted = match flank {
+        Flank::Drive => "drive",
+        Flank::Coast => "coast",
+    };
+    let known = |word: &str| ["", "drive", "coast"].contains(&word);
+    if let Some((word, _)) = tables.iter().find(|(word, _)| !known(word)) {
+        return Err(format!("the flank `{word}` is neither `drive` nor `coast`"));
+    }
+    let is_wanted = |word: &str| word == wanted || (flank == Flank::Drive && word.is_empty());
+    match tables.into_iter().find(|(word, _)| is_wanted(word)) {
+        Some((_, table)) => Ok(Some(table)),
+        None if flank == Flank::Coast => Ok(None),
+        None => Err("there is no row of the flank `drive`".to_owned()),
+    }
+}
+
+fn read<'a>(pair: &'a Pair, bytes: &[u8], table: Table) -> Result<Imported<'a>, String> {
     let names = crate::table::columns(bytes)?;
-    let table = Table::from_file(bytes, &reading)?;
     let torque = axis(table.axes(), "torque", &["Nm"])?;
     let Some(path) = axis(table.axes(), "path", &["-"])? else {
         return Err("there is no column `path [-]`".to_owned());
@@ -166,15 +184,24 @@ fn read<'a>(pair: &'a Pair, bytes: &[u8]) -> Result<Imported<'a>, String> {
     })
 }
 
-/// The shares of a file for a pair.
-pub(super) fn shares(pair: &Pair, name: &str, bytes: &[u8]) -> Result<LoadedShares, SharingFault> {
+/// The shares of a file for a flank of a pair; `None` for the coast flank of a file that has none of its own.
+pub(super) fn shares(
+    pair: &Pair,
+    name: &str,
+    bytes: &[u8],
+    flank: Flank,
+) -> Result<Option<LoadedShares>, SharingFault> {
     if !pair.involute {
         return Err(SharingFault::of_file(
             "a file of shares describes involute teeth, and this mesh has none",
             "state the tip diameter of the ring, or choose another load sharing",
         ));
     }
-    let imported = read(pair, bytes).map_err(|fault| SharingFault::of_file(format!("{name}: {fault}"), COLUMNS))?;
+    let wrong = |fault: String| SharingFault::of_file(format!("{name}: {fault}"), COLUMNS);
+    let Some(table) = table_of(bytes, flank).map_err(wrong)? else {
+        return Ok(None);
+    };
+    let imported = read(pair, bytes, table).map_err(wrong)?;
     let torques = imported
         .torque
         .map_or_else(|| vec![1.0], |i| imported.table.axes()[i].values.clone());
@@ -235,12 +262,12 @@ pub(super) fn shares(pair: &Pair, name: &str, bytes: &[u8]) -> Result<LoadedShar
                 .collect(),
         },
     };
-    Ok(LoadedShares {
+    Ok(Some(LoadedShares {
         factors: tables.iter().map(|table| table.loss_factor(pair)).collect(),
         knots,
         tables,
         meshes: Vec::new(),
         error: 0.0,
         deviation,
-    })
+    }))
 }

@@ -28,6 +28,11 @@ pub struct FlankModification {
     #[serde(default)]
     #[schemars(range(min = -1000.0, max = 1000.0))]
     pub helix_slope: f64,
+    /// Pitch error of every second tooth along the line of action, positive if its flank lies behind that of its neighbours, which then carry
+    /// more. [um]
+    #[serde(default)]
+    #[schemars(range(min = -1000.0, max = 1000.0))]
+    pub pitch_error: f64,
 }
 
 /// Relief of tip or root.
@@ -94,18 +99,22 @@ pub struct Gap {
     /// Slope of both helices and misalignment together over the face. \[m\]
     slope: f64,
     facewidth: f64,
+    /// By how much every second pair of teeth lags behind its neighbours. \[m\]
+    lag: f64,
+    /// Growth of the slope with the line load of the mesh. \[m2/N\]
+    yielding: f64,
 }
 
 impl Gap {
     /// The gap of a pair from the modifications of both gears and the misalignment over the face width, positive if the end of the face
-    /// opens. \[m\]
+    /// opens, with its growth with the line load of the mesh. \[m, m2/N\]
     ///
     /// # Errors
     /// A relief that does not fit the path, with the number of the gear and the key.
     pub fn new(
         pair: &Pair,
         gears: &[FlankModification; 2],
-        misalignment: f64,
+        (misalignment, yielding): (f64, f64),
     ) -> Result<Self, (usize, &'static str, String)> {
         let [start, .., end] = pair.points;
         let mut reliefs = Vec::new();
@@ -136,6 +145,9 @@ impl Gap {
             crowning: gears.iter().map(|g| g.crowning).sum(),
             slope: gears.iter().map(|g| g.helix_slope).sum::<f64>() + misalignment,
             facewidth: pair.facewidth,
+            // The worst of all combinations that occur: the teeth that lag meet each other.
+            lag: gears.iter().map(|g| g.pitch_error).sum(),
+            yielding,
         })
     }
 
@@ -151,9 +163,28 @@ impl Gap {
             + self.slope * y / self.facewidth
     }
 
+    /// By how much every second pair of teeth lags, in addition to the gap at a place. \[m\]
+    pub fn lag(&self) -> f64 {
+        self.lag
+    }
+
+    /// True if it changes with the load of the mesh.
+    pub fn yields(&self) -> bool {
+        self.yielding != 0.0
+    }
+
+    /// The gap under a line load of the mesh. \[N/m\]
+    pub fn under(&self, line_load: f64) -> Self {
+        Self {
+            slope: self.slope + self.yielding * line_load,
+            yielding: 0.0,
+            ..self.clone()
+        }
+    }
+
     /// True if it is the same along the whole face.
     pub fn is_even_along_the_face(&self) -> bool {
-        self.crowning == 0.0 && self.slope == 0.0
+        self.crowning == 0.0 && self.slope == 0.0 && self.yielding == 0.0
     }
 
     /// True if there is none.
@@ -162,9 +193,10 @@ impl Gap {
             && self.reliefs.is_empty()
             && self.profile_crowning == 0.0
             && self.profile_slope == 0.0
+            && self.lag == 0.0
     }
 
-    /// Greatest gap less the least one over the plane of action, from its corners and middles. \[m\]
+    /// Greatest gap less the least one over the plane of action, from its corners and middles, with the pitch error. \[m\]
     pub fn range(&self) -> f64 {
         let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
         for i in 0..=32 {
@@ -174,7 +206,7 @@ impl Gap {
                 (least, greatest) = (least.min(gap), greatest.max(gap));
             }
         }
-        greatest - least
+        greatest - least + self.lag.abs()
     }
 }
 

@@ -4,8 +4,11 @@
 //! action. Its line load is c(x) max(delta - e(x, y), 0), with one transmission error delta for all slices, and the loads add up to the
 //! tangential force at the base circle. The sum is piecewise linear in delta: with the gaps sorted, delta is that of the first i slices for the
 //! i at which it lies between their gaps and the next one; no iteration. Where the stiffness depends on the load (contact of Hertz), it is
-//! repeated with the stiffness at the loads found. Slices are not coupled with each other; contact outside the path (teeth that meet early
+//! repeated with the stiffness at the loads found. With a pitch error every second pair of teeth lags: the mesh repeats after two base pitches,
+//! and the shares are means over both pairs. Slices are not coupled with each other; contact outside the path (teeth that meet early
 //! because others are deflected) and the effect of the deflection on sliding are neglected.
+
+use std::borrow::Cow;
 
 use crate::contact::sharing::modification::Gap;
 use crate::contact::sharing::stiffness::Stiffness;
@@ -32,6 +35,26 @@ struct Phase {
     cells: Vec<Cell>,
 }
 
+/// A phase under a force.
+struct Settled {
+    /// Transmission error. \[m\]
+    delta: f64,
+    /// Stiffness of each slice. \[Pa\]
+    stiffness: Vec<f64>,
+    /// How many were evaluated.
+    evaluations: usize,
+}
+
+impl Settled {
+    /// The slices of the phase that carry load, with their line loads. \[N/m\]
+    fn loads<'a>(&'a self, phase: &'a Phase) -> impl Iterator<Item = (Cell, f64)> + 'a {
+        let cells = phase.cells.iter().zip(&self.stiffness);
+        cells
+            .map(|(cell, c)| (*cell, c * (self.delta - cell.gap)))
+            .filter(|(_, load)| *load > 0.0)
+    }
+}
+
 /// A pair in slices.
 #[derive(Debug, Clone)]
 pub struct Slices {
@@ -41,11 +64,16 @@ pub struct Slices {
     stated: bool,
     gap: Gap,
     count: usize,
+    /// Number of phases in one base pitch.
+    base_phases: usize,
     inclination: f64,
     phases: Vec<Phase>,
     /// Places of the tables, and for spur gears their phases.
-    places: Vec<(f64, Option<Phase>)>,
+    places: Vec<Place>,
 }
+
+/// A place along the path, with the phases in which a pair of teeth is there; empty for helical gears, of which only a slice is.
+type Place = (f64, Vec<Phase>);
 
 /// Load of one slice.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +99,7 @@ pub struct Loaded {
     pub stiffness: f64,
 }
 
-/// A pair under one force over a base pitch.
+/// A pair under one force over a base pitch, over two with a pitch error.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshLoad {
     /// Tangential force at the base circle over the face width. \[N/m\]
@@ -90,6 +118,8 @@ pub struct MeshLoad {
     pub least_touching: f64,
     /// Local tooth loss factor.
     pub loss_factor: f64,
+    /// Evaluations of the stiffness of one slice at the phases.
+    pub evaluations: usize,
 }
 
 impl MeshLoad {
@@ -106,30 +136,62 @@ impl MeshLoad {
     }
 }
 
+/// Inclination of the lines of contact in the plane of action; zero for spur gears.
+fn inclination(pair: &Pair) -> f64 {
+    let inclination = pair.base_helix.tan();
+    let is_spur = inclination * pair.facewidth <= 1e-9 * pair.base_pitch;
+    if is_spur { 0.0 } else { inclination }
+}
+
 impl Slices {
     /// A pair with numbers of slices and phases. A spur pair without modification along the face has one slice.
     pub fn new(pair: &Pair, (stiffness, stated): (Stiffness, bool), gap: Gap, count: usize, phases: usize) -> Self {
-        let inclination = pair.base_helix.tan();
-        let is_spur = inclination * pair.facewidth <= 1e-9 * pair.base_pitch;
-        let count = if is_spur && gap.is_even_along_the_face() {
+        let count = if inclination(pair) == 0.0 && gap.is_even_along_the_face() {
             1
         } else {
             count
         };
+        Self::with_exactly(pair, (stiffness, stated), gap, [count, phases])
+    }
+
+    /// A pair with exactly these numbers of slices and of phases in a base pitch. Where the gap changes with the load, phases and places are
+    /// prepared under each.
+    fn with_exactly(
+        pair: &Pair,
+        (stiffness, stated): (Stiffness, bool),
+        gap: Gap,
+        [count, phases]: [usize; 2],
+    ) -> Self {
         let mut slices = Self {
             pair: *pair,
             stiffness,
             stated,
             gap,
+            base_phases: phases,
             count,
-            inclination: if is_spur { 0.0 } else { inclination },
+            inclination: inclination(pair),
             phases: Vec::new(),
             places: Vec::new(),
         };
+        if slices.gap.yields() {
+            return slices;
+        }
         let step = pair.base_pitch / phases as f64;
-        slices.phases = (0..phases).map(|i| slices.phase((i as f64 + 0.5) * step)).collect();
+        slices.phases = (0..phases * slices.period())
+            .map(|i| slices.phase((i as f64 + 0.5) * step))
+            .collect();
         slices.places = slices.rows();
         slices
+    }
+
+    /// The slices with the gap under a line load of the mesh. \[N/m\]
+    fn under(&self, line_load: f64) -> Cow<'_, Self> {
+        if !self.gap.yields() {
+            return Cow::Borrowed(self);
+        }
+        let law = (self.stiffness.clone(), self.stated);
+        let counts = [self.count, self.base_phases];
+        Cow::Owned(Self::with_exactly(&self.pair, law, self.gap.under(line_load), counts))
     }
 
     /// Number of slices.
@@ -142,13 +204,24 @@ impl Slices {
         &self.gap
     }
 
+    /// Base pitches after which the mesh repeats: two with a pitch error.
+    pub fn period(&self) -> usize {
+        if self.gap.lag() == 0.0 { 1 } else { 2 }
+    }
+
     /// Place of a slice on the face. \[m\]
     fn face(&self, slice: usize) -> f64 {
         (slice as f64 + 0.5) * self.pair.facewidth / self.count as f64
     }
 
+    /// The phase after a travel since a pair of teeth that does not lag began its contact, less than the period. \[m\]
     fn phase(&self, phi: f64) -> Phase {
         let [start, .., end] = self.pair.points;
+        let (phi, turn) = if self.period() > 1 && phi >= self.pair.base_pitch {
+            (phi - self.pair.base_pitch, 1)
+        } else {
+            (phi, 0)
+        };
         let lean = self.pair.facewidth * self.inclination;
         let most = ((end - start + lean) / self.pair.base_pitch).ceil() as usize + 1;
         let mut cells = Vec::new();
@@ -157,9 +230,10 @@ impl Slices {
             for pair in 0..=most {
                 let x = start + phi + pair as f64 * self.pair.base_pitch - y * self.inclination;
                 if (start..=end).contains(&x) {
+                    let lag = if (pair + turn) % 2 == 1 { self.gap.lag() } else { 0.0 };
                     cells.push(Cell {
                         x,
-                        gap: self.gap.at(x, y),
+                        gap: self.gap.at(x, y) + lag,
                         pair: pair as u32,
                         slice: slice as u32,
                     });
@@ -171,23 +245,33 @@ impl Slices {
     }
 
     /// The places of a table: a grid on each section, and a little inside of its ends.
-    fn rows(&self) -> Vec<(f64, Option<Phase>)> {
-        let [start, ..] = self.pair.points;
-        let (pitch, breaks) = (self.pair.base_pitch, self.pair.breaks());
+    fn rows(&self) -> Vec<Place> {
+        let breaks = self.pair.breaks();
         let mut places = Vec::new();
         for piece in breaks.windows(2) {
             let length = piece[1] - piece[0];
             for i in 0..=ROWS {
                 let x = piece[0] + length * (i as f64 / ROWS as f64).clamp(1e-7, 1.0 - 1e-7);
-                let phase = (self.inclination == 0.0).then(|| self.phase((x - start).rem_euclid(pitch)));
-                places.push((x, phase));
+                places.push((x, self.phases_at(x)));
             }
         }
         places
     }
 
-    /// Transmission error and stiffnesses of the slices of a phase under a force over the face width. \[m\]
-    fn settle(&self, phase: &Phase, line_load: f64, factor: f64) -> (f64, Vec<f64>) {
+    /// The phases in which a pair of spur teeth is at a place, one for each pair that differs.
+    fn phases_at(&self, x: f64) -> Vec<Phase> {
+        if self.inclination > 0.0 {
+            return Vec::new();
+        }
+        let pitch = self.pair.base_pitch;
+        let phi = (x - self.pair.points[0]).rem_euclid(pitch);
+        (0..self.period())
+            .map(|turn| self.phase(phi + turn as f64 * pitch))
+            .collect()
+    }
+
+    /// A phase under a force over the face width. \[N/m\]
+    fn settle(&self, phase: &Phase, line_load: f64, factor: f64) -> Settled {
         let cells = &phase.cells;
         let width = self.pair.facewidth / self.count as f64;
         let force = line_load * self.pair.facewidth;
@@ -195,7 +279,7 @@ impl Slices {
             .iter()
             .map(|cell| factor * self.stiffness.at(cell.x, line_load))
             .collect();
-        let mut delta = 0.0;
+        let (mut delta, mut evaluations) = (0.0, cells.len());
         let repeats = if self.stiffness.depends_on_load() { REPEATS } else { 1 };
         for repeat in 0..repeats {
             let before = delta;
@@ -214,27 +298,29 @@ impl Slices {
             for (cell, c) in cells.iter().zip(&mut stiffness) {
                 *c = factor * self.stiffness.at(cell.x, *c * (delta - cell.gap).max(0.0));
             }
+            evaluations += cells.len();
         }
-        (delta, stiffness)
+        Settled {
+            delta,
+            stiffness,
+            evaluations,
+        }
     }
 
-    fn loads(phase: &Phase, delta: f64, stiffness: &[f64]) -> impl Iterator<Item = (Cell, f64)> {
-        let cells = phase.cells.iter().zip(stiffness);
-        cells
-            .map(move |(cell, c)| (*cell, c * (delta - cell.gap)))
-            .filter(|(_, load)| *load > 0.0)
-    }
-
-    /// One phase, from zero to one base pitch, under a force over the face width. \[N/m\]
+    /// One phase, from zero to the end of the period, under a force over the face width. \[N/m\]
     pub fn loaded(&self, phi: f64, line_load: f64) -> Loaded {
-        let phase = self.phase(phi);
+        let here = self.under(line_load);
+        let phase = here.phase(phi);
         let factor = self.stiffness.factor(&self.pair, line_load, self.stated);
-        let (delta, stiffness) = self.settle(&phase, line_load, factor);
-        let touching = phase.cells.iter().zip(&stiffness).filter(|(cell, _)| cell.gap < delta);
+        let found = self.settle(&phase, line_load, factor);
+        let delta = found.delta;
+        let touching = phase.cells.iter().zip(&found.stiffness);
+        let touching = touching.filter(|(cell, _)| cell.gap < delta);
         Loaded {
             delta,
             stiffness: touching.map(|(_, c)| c).sum::<f64>() / self.count as f64,
-            slices: Self::loads(&phase, delta, &stiffness)
+            slices: found
+                .loads(&phase)
                 .map(|(cell, line_load)| SliceLoad {
                     pair: cell.pair as usize,
                     slice: cell.slice as usize,
@@ -247,22 +333,28 @@ impl Slices {
 
     /// The mesh under a force over the face width: its results and shares. \[N/m\]
     pub fn mesh(&self, line_load: f64) -> (MeshLoad, ShareTable) {
+        self.under(line_load).mesh_with_its_gap(line_load)
+    }
+
+    fn mesh_with_its_gap(&self, line_load: f64) -> (MeshLoad, ShareTable) {
         let factor = self.stiffness.factor(&self.pair, line_load, self.stated);
         let (pair, count) = (&self.pair, self.count as f64);
         let mut delta = Vec::with_capacity(self.phases.len());
         let mut along = vec![0.0; self.count];
         let (mut stiff, mut greatest, mut sliding, mut least) = (0.0, 0.0_f64, 0.0, 1.0_f64);
+        let mut evaluations = 0;
         for phase in &self.phases {
-            let (found, stiffness) = self.settle(phase, line_load, factor);
-            delta.push(found);
+            let found = self.settle(phase, line_load, factor);
+            delta.push(found.delta);
+            evaluations += found.evaluations;
             let mut touching = 0;
-            for (cell, load) in Self::loads(phase, found, &stiffness) {
+            for (cell, load) in found.loads(phase) {
                 along[cell.slice as usize] += load;
                 greatest = greatest.max(load);
                 sliding += load * pair.sliding(cell.x);
                 touching += 1;
             }
-            stiff += stiffness[..touching].iter().sum::<f64>() / count;
+            stiff += found.stiffness[..touching].iter().sum::<f64>() / count;
             least = least.min(touching as f64 / phase.cells.len().max(1) as f64);
         }
         let number = self.phases.len() as f64;
@@ -278,38 +370,43 @@ impl Slices {
             least_touching: least,
             loss_factor: sliding / (line_load * count * number) / (pair.cos_base_helix * pair.base_radius[0]),
             delta,
+            evaluations,
         };
         let table = self.table(&load, factor);
         (load, table)
     }
 
-    /// Transmission error at a phase, between those that were solved. \[m\]
-    fn delta_at(delta: &[f64], phase: f64) -> f64 {
-        let place = phase.rem_euclid(1.0) * delta.len() as f64 - 0.5;
+    /// Transmission error at a phase in base pitches, between those that were solved. \[m\]
+    fn delta_at(&self, delta: &[f64], phase: f64) -> f64 {
+        let period = self.period() as f64;
+        let place = phase.rem_euclid(period) * (delta.len() as f64 / period) - 0.5;
         let low = place.floor();
         let t = place - low;
         let at = |i: f64| delta[i.rem_euclid(delta.len() as f64) as usize % delta.len()];
         at(low) + t * (at(low + 1.0) - at(low))
     }
 
-    /// Line load of all slices at a place of the path, each when it is there. \[N/m\]
-    fn lines(&self, (x, phase): (f64, Option<&Phase>), load: &MeshLoad, factor: f64) -> Vec<f64> {
+    /// Line load of all slices at a place of the path, each when it is there, of one pair of teeth after the other that differ. \[N/m\]
+    fn lines(&self, (x, phases): &Place, load: &MeshLoad, factor: f64) -> Vec<f64> {
+        let x = *x;
         let [start, ..] = self.pair.points;
-        let mut lines = vec![0.0; self.count];
-        if let Some(phase) = phase {
-            let (delta, stiffness) = self.settle(phase, load.line_load, factor);
+        let mut lines = vec![0.0; self.period() * self.count];
+        if self.inclination == 0.0 {
             let near = 1e-6 * self.pair.base_pitch;
-            for (cell, load) in Self::loads(phase, delta, &stiffness) {
-                if (cell.x - x).abs() < near {
-                    lines[cell.slice as usize] = load;
+            for (phase, lines) in phases.iter().zip(lines.chunks_mut(self.count)) {
+                for (cell, load) in self.settle(phase, load.line_load, factor).loads(phase) {
+                    if (cell.x - x).abs() < near {
+                        lines[cell.slice as usize] = load;
+                    }
                 }
             }
             return lines;
         }
-        for (slice, line) in lines.iter_mut().enumerate() {
-            let y = self.face(slice);
-            let phase = (x - start + y * self.inclination) / self.pair.base_pitch;
-            let closed = Self::delta_at(&load.delta, phase) - self.gap.at(x, y);
+        for (place, line) in lines.iter_mut().enumerate() {
+            let (teeth, y) = (place / self.count, self.face(place % self.count));
+            let phase = (x - start + y * self.inclination) / self.pair.base_pitch - teeth as f64;
+            let gap = self.gap.at(x, y) + teeth as f64 * self.gap.lag();
+            let closed = self.delta_at(&load.delta, phase) - gap;
             if closed <= 0.0 {
                 continue;
             }
@@ -323,14 +420,14 @@ impl Slices {
     }
 
     fn table(&self, load: &MeshLoad, factor: f64) -> ShareTable {
-        let row = |(x, phase): &(f64, Option<Phase>)| {
-            let lines = self.lines((*x, phase.as_ref()), load, factor);
+        let row = |place: &Place| {
+            let lines = self.lines(place, load, factor);
             let sum: f64 = lines.iter().sum();
             // The load with the friction of the whole face, for friction that grows with its fifth root.
             let fifth = lines.iter().map(|w| w.powf(1.2)).sum::<f64>() / sum;
             ShareRow {
-                x: *x,
-                share: sum / (self.count as f64 * load.line_load),
+                x: place.0,
+                share: sum / (lines.len() as f64 * load.line_load),
                 line: if sum > 0.0 { fifth.powi(5) / load.line_load } else { 0.0 },
                 peak: lines.iter().copied().fold(0.0, f64::max) / load.line_load,
             }
@@ -376,14 +473,17 @@ impl Slices {
         places
     }
 
-    /// Line load over the plane of action under a force over the face width: that of all slices at each place along the path. \[N/m\]
+    /// Line load over the plane of action under a force over the face width: that of all slices at each place along the path, with a pitch
+    /// error the mean of both pairs. \[N/m\]
     pub fn plane(&self, line_load: f64, places: &[f64]) -> Vec<(f64, Vec<f64>)> {
-        let (load, _) = self.mesh(line_load);
+        let here = self.under(line_load);
+        let (load, _) = here.mesh(line_load);
         let factor = self.stiffness.factor(&self.pair, line_load, self.stated);
-        let [start, ..] = self.pair.points;
+        let period = self.period();
         let at = |x: f64| {
-            let phase = (self.inclination == 0.0).then(|| self.phase((x - start).rem_euclid(self.pair.base_pitch)));
-            (x, self.lines((x, phase.as_ref()), &load, factor))
+            let lines = here.lines(&(x, here.phases_at(x)), &load, factor);
+            let mean = |j: usize| lines[j..].iter().step_by(self.count).sum::<f64>() / period as f64;
+            (x, (0..self.count).map(mean).collect())
         };
         places.iter().map(|x| at(*x)).collect()
     }

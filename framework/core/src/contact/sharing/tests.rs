@@ -54,6 +54,16 @@ pub fn helical() -> Pair {
     .unwrap()
 }
 
+/// The last stage of a wind turbine's gearbox, published with the report of another program.
+pub fn large_helical() -> Pair {
+    let spec = spec([24, 95], 14e-3, 20.0, 10.0, 861e-3, [380.747e-3, 1395.376e-3], 360e-3);
+    Pair::new(&PairSpec {
+        profile_shift: [Some(0.48), Some(0.6691)],
+        ..spec
+    })
+    .unwrap()
+}
+
 fn relief(amount: f64, length: f64, shape: ReliefShape) -> FlankModification {
     FlankModification {
         tip_relief: Some(Relief {
@@ -295,7 +305,9 @@ fn thin_slices_at_a_phase() {
     let line_load = 5716.624841 / 17e-3;
     let found = slices.loaded(2.67242673329e-3, line_load);
     close(found.delta * 1e6, 26.2450149875, 1e-6);
-    for (k, (share, touching)) in [(0.2292578139, 13), (0.6343388649, 39), (0.1364033212, 14)]
+    // On the path are 13, 39 and 14 slices. Two of the second pair, at the tip of the first gear at the end of the face, do not touch: relief,
+    // crowning and misalignment leave 26.53 and 29.38 um there, more than the transmission error of 26.25 um.
+    for (k, (share, touching)) in [(0.2292578139, 13), (0.6343388649, 37), (0.1364033212, 14)]
         .into_iter()
         .enumerate()
     {
@@ -305,8 +317,7 @@ fn thin_slices_at_a_phase() {
             .filter(|s| s.pair == k)
             .map(|s| s.line_load)
             .collect();
-        // Of the slices on the path, those with the deepest relief do not touch.
-        assert!(own.len() <= touching && own.len() + 2 >= touching, "{k} {}", own.len());
+        assert_eq!(own.len(), touching, "{k}");
         close(own.iter().sum::<f64>() / 40.0 / line_load, share, 1e-6);
     }
     let at = |k: usize, j: usize| {
@@ -356,6 +367,11 @@ fn reliefs_of_spur_gears_in_closed_form() {
     ] {
         let exact = relieved(&pair, 20e-6 * 14e9 * pair.facewidth * pair.base_radius[0] / torque).loss_factor(&pair);
         close(exact, printed, 1e-6);
+        close(
+            20e-6 * 14e9 * pair.facewidth * pair.base_radius[0] / torque,
+            2.65218845 * 50.0 / torque,
+            1e-6,
+        );
         let line_load = torque / pair.base_radius[0] / pair.facewidth;
         close(shares.knots.between(line_load, &shares.factors), printed, 2e-3);
     }
@@ -385,6 +401,34 @@ fn slices_with_long_reliefs_are_the_closed_family() {
     }
 }
 
+/// Without modification and with a constant stiffness, fine slices of a helical pair are lines of contact with a constant line load; one slice
+/// is the rule of spur gears. An even load is the limit.
+#[test]
+fn fine_slices_without_modification_are_lines_of_contact() {
+    let pair = helical();
+    let of = |slices, phases| {
+        let part = part(&pair, FlankModification::default(), 0.0);
+        let (_, slices) = model(&part, StiffnessLaw::Iso6336, slices, phases);
+        slices.mesh(150.0 / pair.base_radius[0] / pair.facewidth).0.loss_factor
+    };
+    close(of(100, 100), 0.1155112020, 1e-6);
+    close(of(400, 400), 0.1155078718, 1e-6);
+    // The share of one slice jumps, so that it takes more phases; printed with four digits.
+    close(of(1, 20_000), 0.09956, 1e-4);
+    let lines = pair.loss_factor_local(LoadSharing::ContactLines);
+    close(lines, 0.11550727434034, 1e-6);
+    close(of(400, 400), lines, 1e-5);
+    let spur = c14();
+    close(spur.loss_factor_local(LoadSharing::Uniform), 0.2393094291, 1e-6);
+    let [start, _, pitch, _, end] = spur.points;
+    let k = (pitch - start) / (end - start);
+    close(k, 0.4980255873, 1e-6);
+    // As Velex and Ville print it, over the length of the path.
+    let even = 1.0 - 2.0 * k + 2.0 * k * k;
+    let sliding = std::f64::consts::PI * (1.0 + 1.0 / spur.ratio()) / f64::from(spur.z[0]);
+    close(sliding * spur.contact_ratio * even, 0.2393094291, 1e-6);
+}
+
 /// A misaligned single contact: the closed factor of the face.
 #[test]
 fn a_misaligned_face_has_its_closed_factor() {
@@ -399,9 +443,112 @@ fn a_misaligned_face_has_its_closed_factor() {
         );
         let single = slices.loaded(pair.points[2] - pair.points[0], line_load);
         let greatest = single.slices.iter().map(|s| s.line_load).fold(0.0, f64::max);
-        // The middle of the outermost slice is half a slice from the end.
-        close(greatest / line_load, printed, 2e-3);
+        // The middle of the outermost slice is half a slice from the end. Above the limit of full contact the last slice that touches is cut.
+        let at_end = greatest + 14e9 * f * 1e-6 * 0.5 / 400.0;
+        close(at_end / line_load, printed, if f < 60.3 { 1e-6 } else { 2e-5 });
     }
+    close(2.0 * line_load / 14e9 * 1e6, 60.32753812, 1e-6);
+}
+
+/// A pitch error of every second pair in closed form: in double contact both share 1/2 -+ f/(2 delta_0), or the one that lags carries nothing;
+/// the single contact of the pair that lags has its transmission error delta_0 + f. The mean of both shares stays, and with it the loss.
+#[test]
+fn pitch_errors_of_spur_gears_in_closed_form() {
+    let pair = c14();
+    let [start, inner, ..] = pair.points;
+    let line_load = 422.29276686e3;
+    let single = line_load / 14e9;
+    for f in [10e-6, -10e-6, 40e-6] {
+        let flanks = FlankModification {
+            pitch_error: f,
+            ..FlankModification::default()
+        };
+        let part = MeshPart::new(pair, [0.4e-6; 2], [0.5e-6; 2], 206e9, 0.3);
+        // Half of it on each gear.
+        let halves = FlankModification {
+            pitch_error: 0.5 * f,
+            ..flanks
+        };
+        for flanks in [[flanks, FlankModification::default()], [halves; 2]] {
+            let (_, slices) = model(&part.clone().with_flanks(flanks, 0.0), StiffnessLaw::Iso6336, 2, 2000);
+            assert_eq!(slices.period(), 2);
+            let lagging = (0.5 - 0.5 * f / single).clamp(0.0, 1.0);
+            // The pair that begins its contact does not lag in the first base pitch, and lags in the second.
+            for (turn, share) in [(0.0, 1.0 - lagging), (1.0, lagging)] {
+                let phi = 0.5 * (inner - start) + turn * pair.base_pitch;
+                let found = slices.loaded(phi, line_load);
+                let own: f64 = found.slices.iter().filter(|s| s.pair == 0).map(|s| s.line_load).sum();
+                assert!((own / line_load - share).abs() < 1e-9, "{f} {turn} {own}");
+                let both = if f.abs() < single { 0.5 * (single + f) } else { single };
+                close(found.delta, both, 1e-9);
+                // In single contact.
+                let found = slices.loaded(pair.points[2] - start + turn * pair.base_pitch, line_load);
+                close(found.delta, single + turn * f, 1e-9);
+            }
+            let (mesh, table) = slices.mesh(line_load);
+            close(mesh.loss_factor, 0.19863033914, 1e-6);
+            close(table.loss_factor(&pair), 0.1986347459, 1e-6);
+            close(mesh.greatest, line_load, 1e-9);
+            let row = table.at(0.5 * (start + inner));
+            close(row.share, 0.5, 1e-6);
+            close(row.peak, lagging.max(1.0 - lagging), 1e-9);
+        }
+    }
+}
+
+/// A pitch error of 10 um with long linear reliefs of 20 um: the mean of both clamped shares of the closed family.
+#[test]
+fn pitch_errors_with_reliefs() {
+    let pair = c14();
+    let [start, inner, ..] = pair.points;
+    let (line_load, f) = (422.29276686e3, 10e-6);
+    let flanks = relief(20.0, (pair.contact_ratio - 1.0) * pair.base_pitch, ReliefShape::Linear);
+    let part = part(&pair, flanks, 0.0);
+    let lags = part.flanks.map(|flank| FlankModification {
+        pitch_error: 0.5 * f,
+        ..flank
+    });
+    let (_, slices) = model(&part.with_flanks(lags, 0.0), StiffnessLaw::Iso6336, 2, 200);
+    let (mesh, table) = slices.mesh(line_load);
+    let (kappa, shift) = (20e-6 * 14e9 / line_load, 0.5 * f * 14e9 / line_load);
+    let share = |s: f64, shift: f64| (0.5 + kappa * (s - 0.5) + shift).clamp(0.0, 1.0);
+    for s in [0.05, 0.3, 0.5, 0.9] {
+        let mean = 0.5 * (share(s, shift) + share(s, -shift));
+        assert!((table.at(start + s * (inner - start)).share - mean).abs() < 2e-3, "{s}");
+    }
+    // The neighbours of a tooth that lags carry more, over a longer part of the path.
+    let plain = slices_of(
+        &part_without_pitch_error(&pair),
+        &SlicesSharing {
+            stiffness: StiffnessLaw::Iso6336,
+            single_stiffness: Some(14e9),
+            ..SlicesSharing::default()
+        },
+    );
+    let (plain, _) = plain.unwrap().1.mesh(line_load);
+    assert!(mesh.peak_to_peak() > plain.peak_to_peak());
+}
+
+fn part_without_pitch_error(pair: &Pair) -> MeshPart {
+    let long = (pair.contact_ratio - 1.0) * pair.base_pitch;
+    part(pair, relief(20.0, long, ReliefShape::Linear), 0.0)
+}
+
+/// Mean stiffness of the mesh and greatest stiffness of a pair beside published values; docs/load-sharing.md has the table.
+#[test]
+fn stiffness_beside_published_values() {
+    let of = |pair: &Pair, line_load: f64| {
+        let part = MeshPart::new(*pair, [0.4e-6; 2], [0.5e-6; 2], 206e9, 0.3);
+        let (law, slices) = slices_of(&part, &SlicesSharing::default()).unwrap();
+        let (mesh, _) = slices.mesh(line_load);
+        let [start, .., end] = pair.points;
+        let at = |i: u32| law.at(start + f64::from(i) / 200.0 * (end - start), line_load);
+        [(0..=200).map(at).fold(0.0, f64::max) * 1e-9, mesh.stiffness * 1e-9]
+    };
+    let spur = of(&c14(), 422.29276686e3);
+    let helical = of(&large_helical(), 40953.0 / 0.160013 / 0.36);
+    let rounded = [spur, helical].map(|pair| pair.map(|c| (c * 100.0).round() / 100.0));
+    assert_eq!(rounded, [[14.25, 18.15], [17.67, 22.59]]);
 }
 
 /// Shares of a file that slices wrote have the same loss factors.
@@ -426,7 +573,9 @@ fn a_file_of_slices_has_the_same_loss() {
                 }
             }
         }
-        let shares = file::shares(&pair, "share.csv", text.as_bytes()).unwrap();
+        let shares = file::shares(&pair, "share.csv", text.as_bytes(), Flank::Drive)
+            .unwrap()
+            .unwrap();
         for (load, factor) in loads.iter().zip(&shares.factors) {
             close(*factor, slices.mesh(*load).0.loss_factor, 2e-3);
         }
@@ -436,7 +585,11 @@ fn a_file_of_slices_has_the_same_loss() {
 #[test]
 fn faulty_files_are_named() {
     let pair = c14();
-    let wrong = |text: &str| file::shares(&pair, "share.csv", text.as_bytes()).unwrap_err().message;
+    let wrong = |text: &str| {
+        file::shares(&pair, "share.csv", text.as_bytes(), Flank::Drive)
+            .unwrap_err()
+            .message
+    };
     for (text, part) in [
         ("path [-],share [-]\n0,0.2\n1,0.2\n", "add up to"),
         ("path [mm],share [-]\n0,0.2\n1,0.2\n", "the unit is -"),
@@ -468,38 +621,50 @@ fn a_mesh_at_a_load_takes_less_than_five_milliseconds() {
     let shares = LoadedShares::from_slices(&pair, &stiffness, &slices);
     let loads = shares.tables.len() * 2 - 1;
     let each = start.elapsed().as_secs_f64() / loads as f64;
+    // On any machine: each phase settles in a few repetitions, each over the slices on the path.
+    let (mesh, _) = slices.mesh(150.0 / pair.base_radius[0] / pair.facewidth);
+    assert_eq!(mesh.evaluations, 66_124);
     // Without optimisation it takes many times as long.
-    assert!(shares.error < 0.02, "{}", shares.error);
+    assert!(shares.error < ACCURATE, "{}", shares.error);
     assert!(each < if cfg!(debug_assertions) { 0.5 } else { 5e-3 }, "{each}");
 }
 
 fn any_modification() -> impl Strategy<Value = FlankModification> {
     (
         0.0..40e-6_f64,
-        0.1..1.0_f64,
+        prop_oneof![Just(0.0), 0.0..20e-6_f64],
         any::<bool>(),
         0.0..20e-6_f64,
         0.0..10e-6_f64,
         -15e-6..15e-6_f64,
         -15e-6..15e-6_f64,
+        prop_oneof![Just(0.0), -20e-6..20e-6_f64],
     )
         .prop_map(
-            |(amount, _, parabolic, crowning, profile_crowning, profile_slope, helix_slope)| FlankModification {
-                tip_relief: Some(Relief {
-                    amount,
-                    length: None,
-                    from_diameter: None,
-                    shape: if parabolic {
-                        ReliefShape::Parabolic
-                    } else {
-                        ReliefShape::Linear
-                    },
-                }),
-                root_relief: None,
-                crowning,
-                profile_crowning,
-                profile_slope,
-                helix_slope,
+            |(amount, root, parabolic, crowning, profile_crowning, profile_slope, helix_slope, pitch_error)| {
+                FlankModification {
+                    tip_relief: Some(Relief {
+                        amount,
+                        length: None,
+                        from_diameter: None,
+                        shape: if parabolic {
+                            ReliefShape::Parabolic
+                        } else {
+                            ReliefShape::Linear
+                        },
+                    }),
+                    root_relief: (root > 0.0).then_some(Relief {
+                        amount: root,
+                        length: None,
+                        from_diameter: None,
+                        shape: ReliefShape::Linear,
+                    }),
+                    crowning,
+                    profile_crowning,
+                    profile_slope,
+                    helix_slope,
+                    pitch_error,
+                }
             },
         )
 }
@@ -534,7 +699,7 @@ proptest! {
         let entry = SlicesSharing { stiffness: law, single_stiffness: None, slices: 8, phases: 20 };
         let part = MeshPart::new(pair, [0.4e-6; 2], [0.5e-6; 2], 206e9, 0.3).with_flanks(flanks, misalignment);
         let (_, slices) = slices_of(&part, &entry).unwrap();
-        for phase in [0.1, 0.45, 0.8] {
+        for phase in [0.1, 0.45, 0.8, 1.1, 1.8].into_iter().filter(|phase| *phase < slices.period() as f64) {
             let found = slices.loaded(phase * pair.base_pitch, line_load);
             prop_assert!(found.delta.is_finite() && found.slices.iter().all(|s| s.line_load > 0.0));
             let sum: f64 = found.slices.iter().map(|s| s.line_load).sum::<f64>() / slices.count() as f64;
@@ -554,9 +719,10 @@ proptest! {
         let (_, back) = slices_of(&part, &entry).unwrap();
         let slope = flanks[0].helix_slope + flanks[1].helix_slope + misalignment;
         let lean = if helix == 0.0 { 0.0 } else { width * pair.base_helix.tan() };
-        for phase in [0.13, 0.46, 0.81] {
+        for phase in [0.13, 0.46, 0.81, 1.13, 1.46, 1.81].into_iter().filter(|phase| *phase < slices.period() as f64) {
             let phi = phase * pair.base_pitch;
-            let mirrored = (pair.points[4] - pair.points[0] - phi + lean).rem_euclid(pair.base_pitch);
+            let period = slices.period() as f64 * pair.base_pitch;
+            let mirrored = (pair.points[4] - pair.points[0] - phi + lean).rem_euclid(period);
             let (own, other) = (slices.loaded(phi, line_load), back.loaded(mirrored, line_load));
             prop_assert!((other.delta + slope - own.delta).abs() < 1e-9 * own.delta.abs() + 1e-12, "{} {}", other.delta + slope, own.delta);
             prop_assert_eq!(other.slices.len(), own.slices.len());

@@ -1,0 +1,147 @@
+//! Misalignment of meshes from their own shafts, found at the rated torque after a first build, and what of it the second build takes: how the
+//! misalignment grows with the load, and how far the resultant force moves along the face.
+
+use super::{MeshLaw, Transmission};
+use crate::codes;
+use crate::contact::sharing::{CalculatedSharing, SharingEntry, slices_of};
+use crate::description::GearboxEntry;
+use crate::document::Diagnostic;
+use crate::evaluate::{Point, PowerFlow};
+use crate::loads::TiltFault;
+use serde_json::Value;
+
+/// What the deflection of both shafts does to a mesh.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Lean {
+    /// Misalignment without torque, by weights and forces of belts. \[m\]
+    pub constant: f64,
+    /// Misalignment per tangential force at the base circle over the face width. \[m2/N\]
+    pub per_line_load: f64,
+    /// Distance of the resultant force at the rated torque from the middle of the face, in the direction of the shafts. \[m\]
+    pub shift: f64,
+}
+
+/// True if a description asks for the misalignment of a mesh from its shafts.
+pub fn is_wanted(entry: &GearboxEntry) -> bool {
+    entry.meshes.0.iter().any(|(_, mesh)| mesh.shaft_deflection)
+}
+
+/// The leans of all meshes of a transmission that was built without them, by number.
+///
+/// # Errors
+/// Meshes whose shafts cannot be calculated.
+pub fn leans(t: &Transmission, entry: &GearboxEntry, resolved: &Value) -> Result<Vec<Lean>, Vec<Diagnostic>> {
+    let mut leans = vec![Lean::default(); t.meshes.len()];
+    let mut faults = Vec::new();
+    let wanted = |mesh: usize| {
+        let path = t.meshes[mesh].seat.path.as_str();
+        let id = path.strip_prefix("meshes.")?;
+        entry.meshes.get(id)?.shaft_deflection.then_some((path, id))
+    };
+    let mut open: Vec<usize> = (0..t.meshes.len()).filter(|mesh| wanted(*mesh).is_some()).collect();
+    let Some(rating) = t.rating else {
+        let missing = open.iter().filter_map(|mesh| wanted(*mesh)).map(|(path, _)| {
+            fault(
+                path,
+                "the deflection of both shafts is that at the rated torque, and none is stated".to_owned(),
+            )
+            .help("state `rating: { torque: ..., speed: ... }`")
+        });
+        return Err(missing.collect());
+    };
+    for state in 0..t.states().len() {
+        let Some(case) = t.case_at_reference(state) else {
+            continue;
+        };
+        let mut scratch = t.scratch(&case);
+        let mut torques = vec![0.0; case.torque_ports.len()];
+        let Some(first) = torques.first_mut() else { continue };
+        *first = rating.torque;
+        let point = Point {
+            speeds: &[rating.speed],
+            torques: &torques,
+            flow: PowerFlow::Ideal,
+            ..Point::default()
+        };
+        let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
+        if !solution.has_flow() {
+            continue;
+        }
+        let forces = solution.tangential_forces();
+        open.retain(|mesh| {
+            let Some((path, id)) = wanted(*mesh).filter(|_| forces[*mesh] != 0.0) else {
+                return true;
+            };
+            match lean(t, *mesh, forces, &resolved["meshes"][id]["model"]) {
+                Ok(found) => leans[*mesh] = found,
+                Err(tilt) => faults.push(explain(t, path, &tilt)),
+            }
+            false
+        });
+    }
+    if faults.is_empty() { Ok(leans) } else { Err(faults) }
+}
+
+/// The lean of a mesh under the tangential forces of all meshes.
+fn lean(t: &Transmission, mesh: usize, forces: &[f64], model: &Value) -> Result<Lean, TiltFault> {
+    let MeshLaw::Cylindrical { part, .. } = &t.meshes[mesh].law else {
+        return Err(TiltFault::OtherMesh);
+    };
+    let pair = &part.pair;
+    let tilt = t.loads.tilt(mesh, forces, 1.0)?;
+    let at_rest = t.loads.tilt(mesh, forces, 0.0)?;
+    // In the plane of action the face begins where contact does.
+    let over_face = |slope: f64| tilt.sense * slope * pair.facewidth;
+    let torque = forces[mesh].abs() * t.meshes[mesh].seat.radius();
+    let line_load = torque / (pair.base_radius[0] * pair.facewidth);
+    let constant = over_face(at_rest.slope);
+    let lean = Lean {
+        constant,
+        per_line_load: (over_face(tilt.slope) - constant) / line_load,
+        shift: 0.0,
+    };
+    let sharing: Option<SharingEntry> = serde_json::from_value(model["load_sharing"].clone()).ok();
+    let Some(SharingEntry::Calculated(CalculatedSharing::Slices(entry))) = sharing else {
+        return Ok(lean);
+    };
+    let leaning = part.as_ref().clone().leaning(lean.constant, lean.per_line_load);
+    let shift = slices_of(&leaning, &entry).map_or(0.0, |(_, slices)| slices.mesh(line_load).0.shift);
+    Ok(Lean {
+        shift: tilt.sense * shift * 0.5 * pair.facewidth,
+        ..lean
+    })
+}
+
+fn fault(path: &str, message: String) -> Diagnostic {
+    Diagnostic::error(format!("{path}.shaft_deflection"), message).code(codes::SHAFT_DEFLECTION)
+}
+
+fn explain(t: &Transmission, path: &str, tilt: &TiltFault) -> Diagnostic {
+    let name = |member: &usize| t.members()[*member].as_str();
+    match tilt {
+        TiltFault::OtherMesh => fault(
+            path,
+            "a gear of this mesh is on a planet or on the axis of its carrier".to_owned(),
+        )
+        .help("state the `misalignment` of this mesh instead"),
+        TiltFault::Unsupported(member) => fault(
+            path,
+            format!("fewer than two bearings take the radial force of `{}`", name(member)),
+        )
+        .help("add its bearings, or state the `misalignment` instead"),
+        TiltFault::NoSection(member, [from, to]) => fault(
+            path,
+            format!(
+                "`{}` has no diameter from {:.3} to {:.3} mm, so its deflection is not known",
+                name(member),
+                from * 1e3,
+                to * 1e3
+            ),
+        )
+        .help("state `sections` of the shaft over its bearings and gears"),
+        TiltFault::Undetermined(member) => {
+            fault(path, format!("the deflection of `{}` is not determined", name(member)))
+                .help("check bearings and hinges of the shaft")
+        }
+    }
+}
