@@ -166,8 +166,14 @@ fn shafts_misalign_their_mesh() {
         "{leaning:?} {straight:?}"
     );
     close(leaning[0] + leaning[1], straight[0] + straight[1], 1e-9);
-    // Softer bearings of the pinion at its end turn it by their deflection as well.
+    // The same with the slices of a law of mean friction.
     changes[0].1 = json!(true);
+    let local = json!({ "type": "local", "load_sharing": { "type": "slices" }, "tooth_friction": { "type": "xu" } });
+    let mut of_law = changes.clone();
+    of_law.push((MODEL, json!({ "type": "ohlendorf", "mean_friction": local })));
+    let of_law = built(&language, &folder, &of_law).unwrap();
+    close(at(&of_law, 200.0, 2250.0).1[0], leaning[0], 1e-6);
+    // Softer bearings of the pinion at its end turn it by their deflection as well.
     let stiffness = 1e8;
     changes.push(("bearings.B2.radial_stiffness", json!(format!("{stiffness} N/m"))));
     let soft = built(&language, &folder, &changes).unwrap();

@@ -349,7 +349,7 @@ fn what_is_counted_twice_or_unknown_is_refused() {
         ("{ map: map.csv, contains: [inverter], port: shaft }", "port"),
         (
             "{ map: map.csv, contains: [inverter], freewheel: [{ speed: 0 rpm, loss: 0 W }] }",
-            "belongs to `idle: off`",
+            "belongs to `idle: \"off\"`",
         ),
         (
             "{ map: map.csv, contains: [inverter], envelope: { peak: { torque: 10 Nm, power: 1 kW }, continuous: { torque: 20 Nm, power: 1 kW } } }",

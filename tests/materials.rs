@@ -1,4 +1,4 @@
-//! Materials of gears: two of one steel are today's single modulus, plastics soften the contact, and nothing is undefined.
+//! Materials of gears: two of one steel have the results of one modulus, plastics soften the contact, and nothing is undefined.
 
 use gearloss_framework::contact::sharing::stiffness::single_stiffness;
 use gearloss_framework::document::{Diagnostic, Severity};
@@ -208,16 +208,21 @@ fn findings_have_their_code_and_place() {
     let half = "materials: { own: { elastic_modulus: 3 GPa, poisson: 0.35, conductivity: 0.3 W/(m K) } }\n";
     let half = stage("", ", material: own", "", XU, half);
     assert_eq!(code(&half, "materials.own.density"), error("E0370"));
+    // No metal is so soft, so that steel does not stand in.
+    let soft = "materials: { own: { elastic_modulus: 3 GPa, poisson: 0.35 } }\n";
+    let soft = stage("", ", material: own", "", XU, soft);
+    assert_eq!(code(&soft, "materials.own.kind"), error("E0370"));
     let unused = stage("", "", "", XU, "materials: { own: { designation: POM } }\n");
     assert_eq!(code(&unused, "materials.own"), warning("W0370"));
     let twice = stage(
         ", material: steel",
         ", material: steel",
-        ", elastic_modulus: 195 GPa",
+        ", elastic_modulus: 195 GPa, poisson: 0.28",
         XU,
         "",
     );
     assert_eq!(code(&twice, "meshes.stage.elastic_modulus"), warning("W0370"));
+    assert_eq!(code(&twice, "meshes.stage.poisson"), warning("W0370"));
     let metal = stage("", ", material: POM", "", XU, "");
     assert_eq!(code(&metal, "meshes.stage.model.tooth_friction.type"), warning("W0372"));
     // The coefficient of lubricated plastics has no open source.
@@ -225,6 +230,9 @@ fn findings_have_their_code_and_place() {
     assert_eq!(code(&oiled, "meshes.stage.model.mean_friction"), error("E0207"));
     let known = stage("", ", material: POM", "", &DRY.replace("dry", "oil, mu: 0.05"), "");
     assert!(findings(&known).is_empty());
+    // Neither is it a law of two metal gears, whatever the coefficient.
+    let steels = stage("", "", "", &DRY.replace("dry", "dry, mu: 0.1"), "");
+    assert_eq!(code(&steels, "meshes.stage.model.mean_friction"), error("E0207"));
     // Heat goes into flanks of unknown conductivity.
     let cold = "materials: { own: { kind: plastic, elastic_modulus: 3 GPa, poisson: 0.35 } }\n";
     let heated =

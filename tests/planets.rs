@@ -280,3 +280,22 @@ fn faults_have_codes_and_places() {
     let own = example(&language, &[]).unwrap();
     assert!(own.warnings.iter().all(|warning| !is(warning, "W0376")));
 }
+
+/// The teeth of planets are as stiff as their material: a softer one evens out the errors of the pins, the modulus of the mesh changes nothing.
+#[test]
+fn teeth_are_as_stiff_as_their_material() {
+    let language = language();
+    let of = |material: &str| {
+        let text = std::fs::read_to_string(file()).unwrap();
+        let named = text.replace("z: 30, facewidth: 30 mm }", "z: 30, facewidth: 30 mm, material: own }");
+        let text =
+            format!("{named}\nmaterials: {{ own: {{ kind: bronze, elastic_modulus: {material}, poisson: 0.3 }} }}\n");
+        at(&of_text(&language, &text, &[]).unwrap(), 150.0).shares[0]
+            .shares
+            .clone()
+    };
+    let without = at(&example(&language, &[]).unwrap(), 150.0).shares[0].shares.clone();
+    assert_eq!(of("206 GPa"), without);
+    let greatest = |shares: &[f64]| shares.iter().copied().fold(0.0, f64::max);
+    assert!(greatest(&of("50 GPa")) < greatest(&without) - 0.01);
+}

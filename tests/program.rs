@@ -442,7 +442,7 @@ fn run_prints_the_result_of_each_analysis_in_one_line() {
     }
     assert!(
         text.contains(
-            "At 12 operating points with the gearbox's own models: loss 20.6 to 72.5 W (at the highest loss: bearings 42.2 %, seals 41.9 %), oil 29.5 to 53.6 °C"
+            "At 12 operating points with the gearbox's own models: loss 20.6 to 72.7 W (at the highest loss: bearings 42.3 %, seals 41.8 %), oil 29.5 to 53.7 °C"
         ),
         "{text}"
     );

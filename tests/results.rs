@@ -22,8 +22,8 @@ const STUDIES: [&str; 5] = [
 ];
 
 /// Records of rare results, which no study here has: a minimum at a kink, whose contents are tested with the models that make it,
-/// a duty that breaks off, and one that leaves the map of a machine.
-const RARE: [&str; 3] = ["KinkOfModel", "BrokenOff", "OutsideMap"];
+/// a duty that breaks off, and a duty and points that leave the map of a machine.
+const RARE: [&str; 4] = ["KinkOfModel", "BrokenOff", "OutsideMap", "MachineOutside"];
 
 /// Objects whose keys are the user's, or a model's.
 const OPEN: [&str; 7] = [

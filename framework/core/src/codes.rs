@@ -99,11 +99,11 @@ gearloss_document::codes! {
         cause: "A file of `load_sharing: { type: file }` cannot be read, is incomplete, or its shares do not carry the whole force.",
         help: "Correct the file at the place that the message names.";
     SHAFT_DEFLECTION = "E0352", "deflection of shafts that cannot be calculated",
-        cause: "`shaft_deflection` of a mesh needs a rating, and bearings and diameters of both shafts over their whole length; gears on planets have none.",
+        cause: "`shaft_deflection` of a mesh needs a rating that loads it, and bearings and diameters of both shafts over their whole length; gears on planets have none.",
         help: "State what the message names, or the `misalignment` of the mesh instead.";
     SHARES_OF_FLANKS = "E0353", "shares of both flanks for a model that does not distinguish them",
-        cause: "A file of `load_sharing` has a column `flank`, and the model or rating that names it does not know which flanks touch.",
-        help: "Name a file without the column `flank`, or a mesh model that integrates along the path of contact.";
+        cause: "A file of `load_sharing` has shares of the flank `coast`, and the model that names it does not know which flanks touch.",
+        help: "Name a file without rows of `coast`, or a mesh model that integrates along the path of contact.";
     TRAVEL = "E0360", "a cycle cannot incline the oil",
         cause: "`housing.travel` lets grade and acceleration of a cycle incline the oil, but no level or no oil space is known, or it inclines the oil by more than 60 degrees.",
         help: "State `volume` with `housing.inside`, correct the cycle, or delete `travel`.";
@@ -111,7 +111,8 @@ gearloss_document::codes! {
         cause: "The window of a pocket has no size, its wall is not beside its gear, or how much oil the gear lifts is not known.",
         help: "Correct the places of the window, or name a gear with a churning law and a stationary axis along x.";
     MATERIAL = "E0370", "incomplete material",
-        cause: "A material lacks a value without which it cannot be calculated with: Young's modulus, Poisson's ratio, or one of the three thermal properties.",
+        cause: "A material lacks a value without which it cannot be calculated with: Young's modulus, Poisson's ratio, one of the three thermal properties, or the kind of one that is \
+                softer than metals.",
         help: "State the value, or a `designation` of the catalogue.";
     PINS = "E0376", "load sharing of planets that cannot be",
         cause: "Planets cannot have the stated load sharing, or `pins` has values for another number of planets or lists a shaft twice.",
@@ -200,7 +201,7 @@ gearloss_document::codes! {
         cause: "The material of a worm wheel does not say what it is as such, or the mesh states another one.",
         help: "State `worm_wheel` of the material, and no `material` of the worm mesh.";
     METAL_LAW = "W0372", "law of metal flanks for a plastic gear",
-        cause: "A law of friction or film is a regression or a theory of metal flanks, and a gear of the mesh is of plastic.",
+        cause: "A law of friction is a regression or a theory of metal flanks, and a gear of the mesh is of plastic.",
         help: "Choose a law for plastics (`gearloss models mean_friction`), or state a coefficient.";
     EQUAL_PLANETS = "W0376", "planets are assumed to share equally",
         cause: "Four and more planets, or three between members that all have bearings, carry different loads as soon as their pins have position errors.",

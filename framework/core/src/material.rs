@@ -86,6 +86,9 @@ impl Conductor {
     }
 }
 
+/// Young's modulus below which no metal of gears is. \[Pa\]
+pub const SOFTEST_METAL: f64 = 20e9;
+
 /// Kind of a material, by which laws of friction and temperature are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

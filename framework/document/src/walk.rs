@@ -333,11 +333,12 @@ impl<'a> Walker<'a> {
         let text = match &node.content {
             Content::Text { text, plain } => {
                 if *plain && is_boolean_trap(text) {
-                    self.report(
-                        node,
-                        format!("many YAML readers treat `{text}` as a boolean"),
-                        "choose another name, or write it in quotes",
-                    );
+                    let help = if words.contains(text) {
+                        format!("write `\"{text}\"` (in quotes)")
+                    } else {
+                        "choose another name, or write it in quotes".to_owned()
+                    };
+                    self.report(node, format!("many YAML readers treat `{text}` as a boolean"), help);
                     return None;
                 }
                 text

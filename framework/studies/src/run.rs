@@ -101,7 +101,7 @@ impl<'a> StudyRun<'a> {
         entry(planner)?.plan(planner)
     }
 
-    /// How other values of the varied quantities of an analysis get into the gearbox of a sample; empty for analyses without samples.
+    /// How other values of the varied quantities of an analysis get into the gearbox of a sample; empty where it is not stated.
     ///
     /// # Errors
     /// As [`StudyRun::plan`].

@@ -76,7 +76,6 @@ fn dry(pairings: &Pairings, part: &MeshPart) -> Result<f64, String> {
         (false, true) => Ok(pairings.metal_pinion),
         (true, true) if (pinion, wheel) == (MaterialKind::Pom, MaterialKind::Pom) => Ok(pairings.pom_pom),
         (true, true) if (pinion, wheel) == (MaterialKind::Pa66, MaterialKind::Pa66) => Ok(pairings.pa66_pa66),
-        (false, false) => Err("no gear of this mesh is of plastic: name its `material`".to_owned()),
         _ => Err(format!(
             "the friction of {} with {} has no open source",
             pinion.name(),
@@ -87,6 +86,12 @@ fn dry(pairings: &Pairings, part: &MeshPart) -> Result<f64, String> {
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<OfPairing, Diagnostic> {
     const HELP: &str = "state `mu`, from a measurement on such gears";
+    let part = cx.own_part::<MeanFriction>()?;
+    if part.plastic().is_none() {
+        return Err(cx
+            .error("this law is one of plastic gears, and no gear of this mesh is of plastic")
+            .help("name the `material` of the plastic gear, or choose a law of metal flanks: `gearloss models mean_friction` lists them"));
+    }
     if let Some(mu) = params.mu {
         return Ok(OfPairing { mu });
     }
@@ -95,7 +100,6 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<OfPairing, Diagnostic> 
             .error("the friction of lubricated plastic gears has no open source")
             .help(HELP));
     }
-    let part = cx.own_part::<MeanFriction>()?;
     let mu = dry(&params.coefficients, part).map_err(|fault| cx.error(fault).help(HELP))?;
     Ok(OfPairing { mu })
 }

@@ -1,9 +1,10 @@
 //! Flash and contact temperature of gear flanks according to Blok.
 //!
 //! Sources: Blok 1937: maximum rise 1.11 mu w |sqrt(v1) - sqrt(v2)|/(B_M sqrt(2 b_H)) over a Hertzian band of contact between flanks of one
-//! material, of two |v1 - v2|/(B_M1 sqrt(v1) + B_M2 sqrt(v2)) in place of the difference over B_M; textbooks print the equal forms 0.62 mu w^(3/4) (E'/rho)^(1/4) and 2.45 mu p_H^(3/2) (rho/E')^(1/2). B_M = sqrt(k rho c) is
-//! 13.6 N/(mm s^0.5 K) for martensitic steels. The bulk temperature is that of the thermal network, else the oil temperature plus 0.47 times
-//! the mean rise along the path, as ISO/TS 6336-20 estimates it for dip lubrication (1.2 times as much for injection).
+//! material, of two |v1 - v2|/(B_M1 sqrt(v1) + B_M2 sqrt(v2)) in place of the difference over B_M; textbooks print the equal forms
+//! 0.62 mu w^(3/4) (E'/rho)^(1/4) and 2.45 mu p_H^(3/2) (rho/E')^(1/2). B_M = sqrt(k rho c) is 13.6 N/(mm s^0.5 K) for
+//! martensitic steels. The bulk temperature is that of the thermal network, else the oil temperature plus 0.47 times the mean rise along the
+//! path, as ISO/TS 6336-20 estimates it for dip lubrication (1.2 times as much for injection).
 //! Friction is a mean law for the whole path; the default is intended for scuffing.
 //! An indicator: without the load factors, the approach factor and the tip relief of ISO/TS 6336-20. The scuffing temperature of an oil
 //! comes from a test and must be stated.

@@ -5,8 +5,9 @@
 //! R_lG is 0 for an open drive, 0.015 to 0.045 K m2/W for a partly open housing, 0.06 for a closed one. H_v is the tooth loss factor of
 //! Ohlendorf. The guideline was not available for checking: memory has 2100 for the root, and a factor for intermittent duty, which
 //! is left out.
-//! The program takes the teeth of the pinion for both gears; here each plastic gear has its own. Dry gears in air, with the mean friction that
-//! the mesh has; not for teeth that oil cools. A review calls the accuracy of such temperatures limited.
+//! The program takes the teeth of the pinion for both gears; here each plastic gear has its own. Dry gears in air; not for teeth that oil
+//! cools. The rating does not take the friction of the mesh model but its own `mean_friction`: state the same as the mesh's. A review calls
+//! the accuracy of such temperatures limited.
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
@@ -38,7 +39,7 @@ const EXPONENT: f64 = 0.75;
 /// Temperature of the flank and of the root of plastic gears, as VDI 2736 is implemented in a public gear program.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct PlasticTemperature {
-    /// Law of the mean coefficient of friction, that of the loss of the mesh; without it nothing is rated.
+    /// Law of the mean coefficient of friction; that of the mesh model is not taken: state the same. Without it nothing is rated.
     pub mean_friction: Option<ModelRef<MeanFriction>>,
     /// Temperature of the air around the gears; default: that of the oil of the mesh. [degC]
     #[schemars(range(min = -60.0, max = 200.0))]

@@ -29,8 +29,9 @@ pub struct HousingEntry {
     #[schemars(range(min = -89.0, max = 89.0))]
     pub bank: f64,
     /// Direction of travel of the vehicle in the housing. With it, road grade and acceleration of a cycle incline the oil in addition to
-    /// `grade` and `bank`, and the level follows from the volume at each moment. Default: a cycle does not incline the oil, because nothing
-    /// else says how the gearbox is mounted.
+    /// `grade` and `bank`, and the level follows from the volume at each moment. An output on the axis of the wheels, with x across the vehicle
+    /// and z upwards, that turns positively about +x drives towards -y. Default: a cycle does not incline the oil, because nothing else says
+    /// how the gearbox is mounted.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub travel: Option<TravelDirection>,
 }

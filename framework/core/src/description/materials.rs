@@ -3,16 +3,17 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::material::{Conductor, Elastic, Material, MaterialKind};
+use crate::material::{Conductor, Elastic, Material, MaterialKind, SOFTEST_METAL};
 use crate::mechanism::worm_mesh::WheelMaterial;
 
 /// A material, which gears name; models take what they need of it.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct MaterialEntry {
-    /// Designation in a catalogue of materials, such as `16MnCr5` or `POM`; fills the omitted keys.
+    /// Designation in a catalogue of materials, such as `steel` or `POM`; fills the omitted keys.
     #[schemars(extend("x-refers-to" = "catalogue"))]
     pub designation: Option<String>,
-    /// Kind, by which laws of friction and temperature are chosen; default: that of the catalogue, else steel.
+    /// Kind, by which laws of friction and temperature are chosen; default: that of the catalogue, else steel; required for a
+    /// modulus below 20 GPa.
     pub kind: Option<MaterialKind>,
     /// Young's modulus at the temperature of the teeth; default: that of the catalogue. [GPa]
     #[schemars(range(min = 0.1, max = 1000.0))]
@@ -73,6 +74,10 @@ impl MaterialEntry {
                 ));
             }
         };
+        if self.kind.is_none() && elastic.modulus < SOFTEST_METAL {
+            let fault = "the kind of the material is not known, and its Young's modulus is below 20 GPa, which no metal of gears has";
+            return Err(("kind", fault.to_owned()));
+        }
         Ok(Material {
             kind: self.kind.unwrap_or_default(),
             elastic,

@@ -50,7 +50,7 @@ pub struct LevelEstimate {
     pub in_pockets: f64,
     /// Oil on the flanks of the gears, which is so little that the level does not have it. \[m3\]
     pub on_gears: f64,
-    /// The level a minute after a stop, when a film is left on the walls. \[m\]
+    /// The level a minute after a stop, when a film is left on the walls and the chambers have drained. \[m\]
     pub after_minute: f64,
     /// Oil in chambers that drain into the sump. \[m3\]
     pub held: f64,
@@ -88,7 +88,9 @@ impl Solution<'_> {
             let band = running.band();
             let outside = running.outside(|x| x, band.films[1], CAPTURE[1]);
             let space = (running.space)(0);
-            let left = left_on_wall(running.nu, space.top() - running.rest, MINUTE) * running.walls.area;
+            let left = left_on_wall(running.nu, space.top() - c.rest, MINUTE) * running.walls.area;
+            // After a stop the chambers drain, so that the sump has all oil below the level at rest again.
+            let filled = space.volume(c.rest)[0];
             LevelEstimate {
                 rim: (!lifted.is_empty()).then(|| running.fastest_rim()),
                 band,
@@ -97,7 +99,7 @@ impl Solution<'_> {
                 missing: outside.on_walls + outside.in_air,
                 in_pockets: outside.in_pockets,
                 on_gears: running.on_gears(0),
-                after_minute: space.level(running.stock - left.min(outside.on_walls)),
+                after_minute: space.level(filled - left.min(outside.on_walls)),
                 held,
                 drawn: sump.is_drawn(),
             }

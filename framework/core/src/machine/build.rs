@@ -316,11 +316,11 @@ fn checks(
         found.push(wrong(path, message, "state both nodes, or none"));
     }
     if entry.idle == IdleEntry::Energised && !entry.freewheel.is_empty() {
-        let message = "`freewheel` belongs to `idle: off`";
+        let message = "`freewheel` belongs to `idle: \"off\"`";
         found.push(wrong(
             format!("{path}.freewheel"),
             message,
-            "write `idle: off`, or delete it",
+            "write `idle: \"off\"`, or delete it",
         ));
     }
     if let Some(envelope) = &entry.envelope {

@@ -30,7 +30,7 @@ pub struct MachineEntry {
     #[serde(default)]
     pub idle: IdleEntry,
     /// Losses of the machine that turns with its inverter off, over speed: iron and friction, linear between the values, constant beyond; with
-    /// `idle: off`. Without it such a machine loses nothing.
+    /// `idle: "off"`. Without it such a machine loses nothing.
     #[serde(default)]
     pub freewheel: Vec<FreewheelAt>,
     /// Voltage of the DC link, for maps over the voltage, `envelope` and `inverter.bridge`. [V]

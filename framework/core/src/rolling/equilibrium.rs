@@ -239,13 +239,24 @@ impl Problem {
         Err(Unbalanced)
     }
 
-    /// Newton's step. The stiffness is symmetric but for gyroscopic moments.
+    /// The inverse of this stiffness.
+    fn compliance(&self, stiffness: &Matrix, least: f64) -> Result<Matrix, Unbalanced> {
+        let (shifted, factors) = self.definite(stiffness, least)?;
+        let exact = (!is_symmetric(stiffness)).then(|| shifted.try_inverse()).flatten();
+        Ok(exact.unwrap_or_else(|| factors.inverse()))
+    }
+
+    /// Newton's step.
     fn step(&self, stiffness: &Matrix, least: f64, off: &Vector) -> Result<Vector, Unbalanced> {
         let (shifted, factors) = self.definite(stiffness, least)?;
-        let is_symmetric = *stiffness == stiffness.transpose();
-        let exact = (!is_symmetric).then(|| shifted.lu().solve(&-off)).flatten();
+        let exact = (!is_symmetric(stiffness)).then(|| shifted.lu().solve(&-off)).flatten();
         Ok(exact.unwrap_or_else(|| factors.solve(&-off)))
     }
+}
+
+/// A stiffness is, but for gyroscopic moments.
+fn is_symmetric(stiffness: &Matrix) -> bool {
+    *stiffness == stiffness.transpose()
 }
 
 /// Finds the displacement of the inner ring at which the elements balance the given loads, with a residual below 1e-10 of them.
@@ -356,7 +367,7 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
     }
     let scaled =
         |v: &Vector, factor: fn(f64, f64) -> f64| Axes::from_array(std::array::from_fn(|i| factor(v[i], lengths[i])));
-    let mut compliance = problem.definite(&at.stiffness, 0.0)?.1.inverse();
+    let mut compliance = problem.compliance(&at.stiffness, 0.0)?;
     for i in (0..5).filter(|i| problem.is_held[*i] || at.loads == 0.0) {
         compliance[(i, i)] = f64::INFINITY;
     }

@@ -349,7 +349,7 @@ impl Frame {
         let (ports, wheels) = joined(&entry, &members, ports, found);
         classify(found, codes::SHAFTS);
         let (gears, meshes) = gearing(language.registry(), &entry, &members, memory, found, warnings);
-        let sharing = planet_sharing::sharing((&entry, &resolved.value), &members, &meshes, found, warnings);
+        let sharing = planet_sharing::sharing((&entry, &resolved.value), &members, (&gears, &meshes), found, warnings);
         for (planet, sharing) in members.planets.iter_mut().zip(&sharing) {
             if let Some(planet) = planet {
                 planet.uneven = sharing.is_some();

@@ -79,6 +79,14 @@ pub fn leans(t: &Transmission, entry: &GearboxEntry, resolved: &Value) -> Result
             false
         });
     }
+    faults.extend(open.iter().filter_map(|mesh| wanted(*mesh)).map(|(path, _)| {
+        fault(
+            path,
+            "no gear state loads this mesh at the rated torque, at which the deflection of both shafts is calculated"
+                .to_owned(),
+        )
+        .help("state a `rating` that loads the mesh, or remove `shaft_deflection`")
+    }));
     if faults.is_empty() { Ok(leans) } else { Err(faults) }
 }
 
@@ -100,8 +108,8 @@ fn lean(t: &Transmission, mesh: usize, forces: &[f64], model: &Value) -> Result<
         per_line_load: (over_face(tilt.slope) - constant) / line_load,
         shift: 0.0,
     };
-    let sharing: Option<SharingEntry> = serde_json::from_value(model["load_sharing"].clone()).ok();
-    let Some(SharingEntry::Calculated(CalculatedSharing::Slices(entry))) = sharing else {
+    let sharing = SharingEntry::of_model(model);
+    let Some((_, SharingEntry::Calculated(CalculatedSharing::Slices(entry)))) = sharing else {
         return Ok(lean);
     };
     let leaning = part.as_ref().clone().leaning(lean.constant, lean.per_line_load);

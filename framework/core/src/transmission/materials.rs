@@ -37,7 +37,10 @@ pub(super) fn of_gears(
         let name = gear.material.as_deref()?;
         let number = entry.materials.index(name);
         if number.is_none() {
-            found.push(dangling(&format!("gears.{id}.material"), "material", name, &ids));
+            let fault = dangling(&format!("gears.{id}.material"), "material", name, &ids);
+            let entries = fault.help.clone().map(|help| format!("{help}, or name a designation"));
+            let help = entries.unwrap_or_else(|| "name a designation".to_owned());
+            found.push(fault.help(format!("{help}: `gearloss catalogue materials` lists them")));
         }
         number.and_then(|number| known[number])
     });
@@ -47,7 +50,7 @@ pub(super) fn of_gears(
     gears
 }
 
-/// Reports the modulus of a mesh both of whose gears name their material.
+/// Reports modulus and Poisson's ratio of a mesh both of whose gears name their material.
 fn without_effect(entry: &GearboxEntry) -> impl Iterator<Item = Diagnostic> + '_ {
     let meshes = entry.meshes.iter();
     let meshes = meshes.map(|(id, m)| (format!("meshes.{id}"), &m.gears, m.elastic_modulus, m.poisson));
@@ -64,20 +67,18 @@ fn without_effect(entry: &GearboxEntry) -> impl Iterator<Item = Diagnostic> + '_
     };
     let all = meshes.chain(bevel).chain(crossed);
     all.filter(move |(_, gears, ..)| named(gears))
-        .filter_map(|(path, _, modulus, poisson)| {
-            let key = if modulus != steel() {
-                "elastic_modulus"
-            } else if poisson != steel_poisson() {
-                "poisson"
-            } else {
-                return None;
-            };
-            let message = format!("`{key}` has no effect: both gears name their `material`");
-            Some(
+        .flat_map(|(path, _, modulus, poisson)| {
+            let keys = [
+                ("elastic_modulus", modulus != steel()),
+                ("poisson", poisson != steel_poisson()),
+            ];
+            let stated = keys.into_iter().filter(|(_, stated)| *stated);
+            stated.map(move |(key, _)| {
+                let message = format!("`{key}` has no effect: both gears name their `material`");
                 Diagnostic::warning(format!("{path}.{key}"), message)
                     .code(codes::UNUSED_MATERIAL)
-                    .help("remove it, or `material` of the gears"),
-            )
+                    .help("remove it, or `material` of the gears")
+            })
         })
 }
 

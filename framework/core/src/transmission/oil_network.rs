@@ -101,6 +101,7 @@ impl Names<'_, '_> {
         });
         built.heights = places.collect();
         self.check_names();
+        self.check_places(oils);
         if oils.highest().is_none() {
             let heights = network
                 .junctions
@@ -142,6 +143,43 @@ impl Names<'_, '_> {
                     Diagnostic::error(path, format!("a junction is called `{id}`, too")).help("rename one of them"),
                 );
             }
+        }
+    }
+
+    /// Places of junctions and of mouths: x and y belong to a height, and one of them alone needs an oil space.
+    fn check_places(&mut self, oils: &OilNumbers<'_>) {
+        // A drawn space that is not known has a fault that was reported.
+        let inside = self.around.entry.housing.inside.as_ref();
+        let has_middle = oils.inside.is_some() || inside.is_some_and(|inside| !inside.sections.is_empty());
+        let junctions = self.network.junctions.iter().map(|(id, own)| {
+            let path = format!("oil_network.junctions.{id}");
+            (path, ["height", "x", "y"], own.height, [own.x, own.y])
+        });
+        let pipes = self.network.pipes.iter().map(|(id, own)| {
+            let path = format!("oil_network.pipes.{id}");
+            let place = [own.inlet_x, own.inlet_y];
+            (path, ["inlet_height", "inlet_x", "inlet_y"], own.inlet_height, place)
+        });
+        for (path, [height_key, x, y], height, place) in junctions.chain(pipes) {
+            let error = match (height, place) {
+                (None, [None, None]) | (Some(_), [None, None] | [Some(_), Some(_)]) => continue,
+                (None, [of_x, _]) => {
+                    let stated = if of_x.is_some() { x } else { y };
+                    Diagnostic::error(format!("{path}.{stated}"), "a place without a height")
+                        .help(format!("add `{height_key}` or delete `{x}` and `{y}`"))
+                }
+                (Some(_), [of_x, _]) => {
+                    let (stated, missing) = if of_x.is_some() { (x, y) } else { (y, x) };
+                    if has_middle {
+                        continue;
+                    }
+                    let message = format!("`{missing}` is missing, and no oil space is known whose middle it could be");
+                    Diagnostic::error(format!("{path}.{missing}"), message).help(format!(
+                        "state `{missing}`, draw the oil space with `housing.inside`, or delete `{stated}`"
+                    ))
+                }
+            };
+            self.found.push(error);
         }
     }
 
@@ -439,27 +477,30 @@ fn has_ways(network: &Hydraulics, found: &mut Vec<Diagnostic>, warnings: &mut Ve
 }
 
 /// Heights that stay while the housing is inclined, because their places along and across the shafts are not stated.
-fn heights_of_a_level_road(entry: &GearboxEntry, network: &OilNetworkEntry) -> Option<Diagnostic> {
+fn heights_of_a_level_road(entry: &GearboxEntry, network: &OilNetworkEntry) -> Vec<Diagnostic> {
     let housing = &entry.housing;
-    let inclined = housing.grade != 0.0 || housing.bank != 0.0 || housing.travel.is_some();
+    if housing.grade == 0.0 && housing.bank == 0.0 && housing.travel.is_none() {
+        return Vec::new();
+    }
     let is_open = |height: Option<f64>, place: [Option<f64>; 2]| height.is_some() && place == [None; 2];
     let junctions = network.junctions.iter();
     let junctions = junctions.filter(|(_, own)| is_open(own.height, [own.x, own.y]));
+    let junctions = junctions.map(|(id, _)| {
+        let path = format!("oil_network.junctions.{id}.height");
+        (path, "state `x` and `y` of the junction, as in the drawing")
+    });
     let pipes = network.pipes.iter();
     let pipes = pipes.filter(|(_, own)| is_open(own.inlet_height, [own.inlet_x, own.inlet_y]));
-    let names = junctions
-        .map(|(id, _)| format!("junctions.{id}"))
-        .chain(pipes.map(|(id, _)| format!("pipes.{id}")))
-        .collect::<Vec<_>>();
-    (inclined && !names.is_empty()).then(|| {
-        let message = format!(
-            "the housing is inclined, and the heights of {} are taken as they are",
-            names.join(", ")
-        );
-        Diagnostic::warning("oil_network", message)
+    let pipes = pipes.map(|(id, _)| {
+        let path = format!("oil_network.pipes.{id}.inlet_height");
+        (path, "state `inlet_x` and `inlet_y` of the pipe, as in the drawing")
+    });
+    let warning = |(path, help): (String, &str)| {
+        Diagnostic::warning(path, "the housing is inclined, and this height is taken as it is")
             .code(codes::LEVEL_HEIGHT)
-            .help("state `x` and `y` of junctions with a height, and `inlet_x` and `inlet_y` of pipes with `inlet_height`, as in the drawing")
-    })
+            .help(help)
+    };
+    junctions.chain(pipes).map(warning).collect()
 }
 
 /// Checks that an auxiliary on the right shaft computes the torque of each driven pump and of each rotating channel, once.
@@ -626,14 +667,39 @@ fn seated_pocket(
             )),
         );
     }
-    let room = |length: f64| {
-        let outer = raceway(around.parts, around.components, &pocket.path)?;
-        let inner = 0.5 * around.document["bearings"][id]["bore"].as_f64()?;
-        Some(Room {
-            length,
-            radii: [outer, inner],
-        })
-    };
+    let room = length.and_then(|length| {
+        let bearing = &around.document["bearings"][id];
+        let wrong = |message: &str, help: &str| {
+            Diagnostic::error(format!("{}.pocket.length", pocket.path), message)
+                .code(codes::OIL_NETWORK)
+                .help(help)
+        };
+        match (
+            raceway(around.parts, around.components, &pocket.path),
+            bearing["bore"].as_f64(),
+        ) {
+            (Some(outer), Some(bore)) => Some(Room {
+                length,
+                radii: [outer, 0.5 * bore],
+            }),
+            (Some(_), None) => {
+                found.push(wrong(
+                    "the oil in the pocket needs `bore` of the bearing, which is missing",
+                    "state `bore`, or remove `length`",
+                ));
+                None
+            }
+            (None, _) if bearing["lubrication"] == "grease" => {
+                found.push(wrong(
+                    "the bearing has `lubrication: grease`, so no oil stands in its pocket",
+                    "remove `length`, or state another `lubrication`",
+                ));
+                None
+            }
+            // A stated `oil_height`, or a bearing with a fault: both were reported.
+            (None, _) => None,
+        }
+    });
     Some(Pocket {
         path: pocket.path.clone(),
         edge: edge_of,
@@ -643,7 +709,7 @@ fn seated_pocket(
         inflow,
         rib: caught.map(|rib| rib.rib()),
         window,
-        room: length.and_then(room),
+        room,
         oil: pocket.oil,
     })
 }

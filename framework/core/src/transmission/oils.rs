@@ -378,7 +378,7 @@ impl<'a> OilNumbers<'a> {
     }
 
     /// A place with a height in the drawing above the datum and x and y in the housing; one of them that is not stated is that of the middle
-    /// of the oil space. \[m\]
+    /// of the oil space, which is known unless an error says so. \[m\]
     pub fn place(&self, height: f64, [x, y]: [Option<f64>; 2]) -> Place {
         if x.is_none() && y.is_none() {
             return Place { height, at: None };

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::members::Members;
-use super::seats::MeshSeat;
+use super::seats::{GearSeat, MeshSeat, materials_of};
 use crate::attach::dangling;
 use crate::codes;
-use crate::contact::sharing::stiffness::{Elastic, single_stiffness};
+use crate::contact::sharing::stiffness::single_stiffness;
 use crate::description::GearboxEntry;
 use crate::description::gears::PlanetarySetEntry;
 use crate::description::pins::PinsEntry;
@@ -251,7 +251,7 @@ impl MeshSharing {
 pub fn sharing(
     (entry, document): (&GearboxEntry, &Value),
     members: &Members,
-    meshes: &[MeshSeat],
+    (gears, meshes): (&[GearSeat], &[MeshSeat]),
     found: &mut Vec<Diagnostic>,
     warnings: &mut Vec<Diagnostic>,
 ) -> Vec<Option<Arc<Sharing>>> {
@@ -261,6 +261,7 @@ pub fn sharing(
         let stated = set.load_sharing.unwrap_or(1.0);
         let bodies = Bodies {
             members,
+            gears,
             meshes,
             id,
             set,
@@ -275,7 +276,7 @@ pub fn sharing(
             }
         } else if stated > count {
             let message = format!("one planet of {count} cannot carry {stated} times the mean");
-            let fault = Diagnostic::error(format!("planetary_sets.{id}.load_sharing"), message);
+            let fault = bodies.fault("load_sharing", message);
             found.push(fault.help(format!("write a number from 1 to {count}")));
             None
         } else {
@@ -314,6 +315,7 @@ fn assumed_equal(document: &Value, bodies: &Bodies<'_>) -> Option<Diagnostic> {
         meshes,
         id,
         set,
+        ..
     } = bodies;
     let bearings: Vec<&Value> = document["bearings"]
         .as_object()
@@ -353,6 +355,7 @@ fn assumed_equal(document: &Value, bodies: &Bodies<'_>) -> Option<Diagnostic> {
 /// A set with what it belongs to.
 struct Bodies<'a> {
     members: &'a Members,
+    gears: &'a [GearSeat],
     meshes: &'a [MeshSeat],
     id: &'a str,
     set: &'a PlanetarySetEntry,
@@ -444,7 +447,13 @@ fn calculated(entry: &GearboxEntry, bodies: &Bodies<'_>, pins: &PinsEntry) -> Re
             );
         }
     }
-    let sides = bodies.sides().map_err(|fault| vec![fault])?;
+    let sides = match bodies.sides() {
+        Ok(sides) => sides,
+        Err(fault) => {
+            faults.push(fault);
+            return Err(faults);
+        }
+    };
     let ids = sides
         .each_ref()
         .map(|side| bodies.meshes[side.mesh].path.trim_start_matches("meshes."));
@@ -468,7 +477,7 @@ fn calculated(entry: &GearboxEntry, bodies: &Bodies<'_>, pins: &PinsEntry) -> Re
     let mut compliance = (pin * pin + outwards * outwards) / (pin * pin) * pins.stiffness.map_or(0.0, |own| 1.0 / own);
     for (side, id) in sides.iter().zip(ids) {
         let stated = pins.meshes.iter().find(|own| own.mesh == id).map(|own| own.stiffness);
-        let Some(teeth) = stated.or_else(|| mesh_stiffness(entry, &bodies.meshes[side.mesh])) else {
+        let Some(teeth) = stated.or_else(|| mesh_stiffness(entry, bodies.gears, &bodies.meshes[side.mesh])) else {
             faults.push(
                 bodies
                     .undetermined(format!(
@@ -553,14 +562,11 @@ fn floating(
 }
 
 /// Mean stiffness of the teeth in mesh, c_gamma b of ISO 6336-1; `None` without the geometry of the teeth. \[N/m\]
-fn mesh_stiffness(entry: &GearboxEntry, seat: &MeshSeat) -> Option<f64> {
+fn mesh_stiffness(entry: &GearboxEntry, gears: &[GearSeat], seat: &MeshSeat) -> Option<f64> {
     let pair = &seat.cylindrical()?.pair;
     let written = entry.meshes.get(seat.path.strip_prefix("meshes.")?)?;
-    let material = Elastic {
-        modulus: written.elastic_modulus,
-        poisson: written.poisson,
-    };
+    let materials = materials_of(gears, seat.gears, written.elastic_modulus, written.poisson);
     let mean = 0.75 * pair.contact_ratio + 0.25;
-    let stiffness = single_stiffness(pair, [material; 2]) * mean * pair.facewidth;
+    let stiffness = single_stiffness(pair, materials.map(|material| material.elastic)) * mean * pair.facewidth;
     (pair.involute && stiffness.is_finite() && stiffness > 0.0).then_some(stiffness)
 }

@@ -269,7 +269,9 @@ fn planned(plan: &Plan) -> Planned {
             && found.len() == before
         {
             if written[..number].iter().any(|other| other.name == *name) {
-                let error = Diagnostic::error(format!("{path}.speed_ratio"), format!("`{name}` exists twice"));
+                let place = written[..number].iter().filter(|other| other.key == *key).count();
+                let path = format!("{path}.speed_ratio.ratio.{place}");
+                let error = Diagnostic::error(path, format!("`{name}` exists twice"));
                 found.push(error.help("state each ratio once").code(codes::OVERDETERMINED));
             } else if let Err(error) = keep_ratio(&mut state, ports, (names, *ratio), &format!("{path}.speed_ratio")) {
                 found.push(error);

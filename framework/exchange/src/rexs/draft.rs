@@ -1,5 +1,7 @@
 //! The gearbox as it is going to be written: entries with their comments, in the units of gearbox files.
 
+use gearloss_framework::material::SOFTEST_METAL;
+
 /// A gearbox.
 #[derive(Debug, Default)]
 pub struct Draft {
@@ -106,7 +108,7 @@ pub struct Mesh {
     pub centre_distance: Option<f64>,
     pub modulus: Option<f64>,
     pub poisson: Option<f64>,
-    /// Materials of both gears, if they differ.
+    /// Materials of both gears, if they differ or are soft.
     pub materials: Option<[Material; 2]>,
     pub lubricant: Option<String>,
 }
@@ -118,6 +120,13 @@ pub struct Material {
     pub comment: String,
     pub modulus: f64,
     pub poisson: f64,
+}
+
+impl Material {
+    /// True if no metal of gears has such a Young's modulus.
+    pub fn is_soft(&self) -> bool {
+        self.modulus * 1e9 < SOFTEST_METAL
+    }
 }
 
 /// A pair on axes that cross.

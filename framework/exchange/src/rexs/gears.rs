@@ -445,7 +445,7 @@ struct Elasticity {
     modulus: Option<f64>,
     /// Poisson's ratio of both gears, if it is not the usual one.
     poisson: Option<f64>,
-    /// Their materials, if they differ.
+    /// Their materials, if they differ or are soft.
     materials: Option<[Material; 2]>,
 }
 
@@ -467,7 +467,7 @@ fn elasticity(map: &Map<'_>, materials: [Option<&Component>; 2]) -> Elasticity {
         })
     };
     let one = match materials.map(read) {
-        [Some(a), Some(b)] if (a.modulus, a.poisson) == (b.modulus, b.poisson) => a,
+        [Some(a), Some(b)] if (a.modulus, a.poisson) == (b.modulus, b.poisson) && !a.is_soft() => a,
         [Some(a), Some(b)] => {
             return Elasticity {
                 materials: Some([a, b]),

@@ -198,7 +198,7 @@ fn axis(axis: Axis) -> String {
     }
 }
 
-/// Materials of the gears of meshes in which they differ, each once.
+/// Materials of the gears of meshes in which they differ or are soft, each once.
 fn materials(text: &mut String, meshes: &[Mesh]) {
     let mut known: Vec<&Material> = Vec::new();
     for material in meshes.iter().flat_map(|mesh| mesh.materials.iter().flatten()) {
@@ -211,15 +211,12 @@ fn materials(text: &mut String, meshes: &[Mesh]) {
     }
     for material in known {
         let entry = Entry::default()
-            .word_if("kind", (material.modulus < SOFT).then_some("plastic"))
+            .word_if("kind", material.is_soft().then_some("plastic"))
             .quantity("elastic_modulus", material.modulus, "GPa")
             .quantity("poisson", material.poisson, "");
         line(text, &material.id, entry, &material.comment);
     }
 }
-
-/// Young's modulus below which no metal of gears is. \[GPa\]
-const SOFT: f64 = 20.0;
 
 /// The material that a gear names.
 fn material_of<'m>(gear: &Gear, meshes: &'m [Mesh]) -> Option<&'m str> {

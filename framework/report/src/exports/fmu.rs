@@ -223,18 +223,33 @@ fn table(grid: &GridTable) -> Table {
         }
     }
     let channels = values.len() / (speeds.len() * torques.len() * grid.slabs.len());
-    // A grid that begins at standstill includes it, with the loss torque of the lowest speed; machines lose there what was solved.
-    if grid.axes().speeds[0] == 0.0 && speeds[0] > 0.0 {
-        let mut lowest = values[..values.len() / speeds.len()].to_vec();
-        if grid.unit_columns.first() == Some(&0) {
+    // A grid that begins at standstill includes it, with the loss torque of the lowest speed; machines lose there what was solved. Of machines,
+    // other grids with standstill do so too, with what lies between the speeds on both sides.
+    let standstill = grid.axes().speeds.iter().position(|speed| *speed == 0.0);
+    let solved = standstill.filter(|w| grid.unit_columns.contains(w));
+    let below = speeds.iter().filter(|speed| **speed < 0.0).count();
+    if (standstill == Some(0) || solved.is_some()) && !speeds.contains(&0.0) {
+        let size = values.len() / speeds.len();
+        let [before, after] = [below.saturating_sub(1), below.min(speeds.len() - 1)];
+        let column = |k: usize| values[k * size..(k + 1) * size].iter();
+        let mut still: Vec<f64> = if before == after {
+            column(after).copied().collect()
+        } else {
+            let share = speeds[before] / (speeds[before] - speeds[after]);
+            column(before)
+                .zip(column(after))
+                .map(|(a, b)| a + share * (b - a))
+                .collect()
+        };
+        if let Some(w) = solved {
             let places = (0..torques.len()).flat_map(|t| grid.slabs.iter().map(move |slab| (t, slab)));
-            for (point, (t, slab)) in lowest.chunks_exact_mut(channels).zip(places) {
-                let [machine, inverter] = losses(slab.grid.loss(t, 0).and_then(|loss| loss.unit));
+            for (point, (t, slab)) in still.chunks_exact_mut(channels).zip(places) {
+                let [machine, inverter] = losses(slab.grid.loss(t, w).and_then(|loss| loss.unit));
                 point[channels - 2..].copy_from_slice(&[machine, inverter]);
             }
         }
-        values.splice(0..0, lowest);
-        speeds.insert(0, 0.0);
+        values.splice(below * size..below * size, still);
+        speeds.insert(below, 0.0);
     }
     let mut axes = vec![
         Axis {

@@ -103,8 +103,13 @@ fn script(map: &ExportMap<'_>) -> Result<(String, String), Refusal> {
             unit.push_str(&table(&format!("{name}_tbl"), slabs, &tables.unit_columns, value));
         }
     }
+    let meaning = if tables.of.is_gearbox() {
+        "power out over power in, drive and coast"
+    } else {
+        "power that passes over the power of the DC link, while generating the reciprocal, zero if no power passes"
+    };
     let text = format!(
-        "% Losses{} of gear {}, by gearloss {}. {about}.\n% eta_tbl: power out over power in, drive and coast; loss_tbl: loss over the speed of the reference port, Nm; \
+        "% Losses{} of gear {}, by gearloss {}. {about}.\n% eta_tbl: {meaning}; loss_tbl: loss over the speed of the reference port, Nm; \
          rows are torques, columns are speeds.\nTrq_bpts = [{}]; % Nm\nomega_bpts = [{}]; % rad/s\n{temperatures}{eta}{loss}{unit}",
         tables.of.words(),
         map.map.gear,

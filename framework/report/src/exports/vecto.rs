@@ -117,11 +117,12 @@ fn rpm(map: &ExportMap<'_>, column: usize) -> f64 {
 /// The electric power over speed and torque. A machine that turns freely without torque draws nothing; its drag is a curve of its own.
 fn power_map(map: &ExportMap<'_>) -> Result<ExportFile, Refusal> {
     let machine = machine(map)?;
+    let has_drag = drag(map, machine).is_some();
     let mut text = "n [rpm],T [Nm],P_el [kW]\n".to_owned();
     let (mut rows, mut left) = (0, 0);
     for w in forward(map) {
         for (t, torque) in map.grid.axes.torques.iter().enumerate() {
-            if machine.freewheels && *torque == 0.0 {
+            if has_drag && *torque == 0.0 {
                 continue;
             }
             match map.grid.loss(t, w).and_then(|loss| loss.unit) {
@@ -146,6 +147,8 @@ fn power_map(map: &ExportMap<'_>) -> Result<ExportFile, Refusal> {
     }
     if !machine.freewheels {
         about.push_str("; no drag curve, since the machine is energised without torque (`idle: \"off\"` with `freewheel` states one)");
+    } else if !has_drag {
+        about.push_str("; no drag curve, which needs two speeds above standstill at zero torque");
     }
     Ok(ExportFile {
         name: format!("{}.vemo", map.own_name()),

@@ -45,7 +45,7 @@ struct EstimateRecord {
     in_pockets_l: f64,
     /// Oil on the flanks of gears, which no level lacks because it is so little. [l]
     on_gears_l: f64,
-    /// Level a minute after a stop, when a film is left on the walls. [mm]
+    /// Level a minute after a stop, when a film is left on the walls and the chambers have drained. [mm]
     minute_after_stop_mm: f64,
     /// Oil in the housing. [l]
     volume_l: f64,

@@ -536,9 +536,7 @@ fn mesh_load(at: &GearMeshAt<'_>, sharing: &SharingEntry) -> Option<MeshUnderLoa
 
 /// Load sharing of a mesh model: its own, that of its law of mean friction, or the assumption of its loss factor.
 fn sharing(model: &Value) -> SharingEntry {
-    let written = [&model["load_sharing"], &model["mean_friction"]["load_sharing"]]
-        .into_iter()
-        .find_map(|value| serde_json::from_value(value.clone()).ok());
+    let written = SharingEntry::of_model(model).map(|(_, sharing)| sharing);
     let uniform = model["type"] == "even_share" || model["loss_factor"] == "uniform";
     written.unwrap_or(SharingEntry::Fixed(if uniform {
         LoadSharing::Uniform

@@ -15,7 +15,7 @@ pub trait Plan {
     /// What is computed, in the order in which it is done.
     fn work(&self) -> Vec<Work>;
 
-    /// How other values of each varied quantity get into the gearbox of a sample; empty without samples.
+    /// How other values of each varied quantity get into the gearbox of a sample; empty where it is not stated.
     fn samples(&self, _cx: &Planner<'_>) -> Vec<BuiltAgain> {
         Vec::new()
     }

@@ -101,7 +101,8 @@ impl Range {
     }
 }
 
-/// What is built again when each of these leaves one end of its range for the other.
+/// What is built again when each of these leaves one end of its range for the other; without those at an end of which the gearbox cannot be
+/// built.
 pub fn built_again<'r>(
     cx: &Planner<'_>,
     b: &Built<'_>,
@@ -110,14 +111,14 @@ pub fn built_again<'r>(
     let variants = Variants::new(cx.language, b.gearbox, cx.study.choice(b.set()));
     let of = |range: &Range| {
         let [first, second] = range.ends.map(|end| range.varied.overrides(end).collect::<Vec<_>>());
-        BuiltAgain {
+        Some(BuiltAgain {
             of: b.name.clone(),
             quantity: range.varied.pattern.clone(),
             // A value with which the gearbox cannot be built is for the samples to report.
-            models: variants.built_again([&first, &second]).ok().flatten(),
-        }
+            models: variants.built_again([&first, &second]).ok()?,
+        })
     };
-    ranges.into_iter().map(of).collect()
+    ranges.into_iter().filter_map(of).collect()
 }
 
 /// A varied coefficient of a formula.

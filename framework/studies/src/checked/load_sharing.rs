@@ -106,7 +106,7 @@ fn sharing(
     at: &GearMeshAt<'_>,
     path: &str,
 ) -> Option<SharingAtRating> {
-    let own: SharingEntry = serde_json::from_value(model.get("load_sharing")?.clone()).ok()?;
+    let (place, own) = SharingEntry::of_model(model)?;
     let is_sliced = matches!(own, SharingEntry::Calculated(CalculatedSharing::Slices(_)));
     let part = Arc::new(at.part.clone());
     let mut build = Build::new(language.registry(), &checked.gearbox.files);
@@ -125,8 +125,8 @@ fn sharing(
         ..SlicesSharing::default()
     }));
     let mut other = model.clone();
-    other["load_sharing"] = serde_json::to_value(sliced).ok()?;
-    let written = &model["load_sharing"];
+    *other.pointer_mut(place)? = serde_json::to_value(sliced).ok()?;
+    let written = model.pointer(place)?;
     Some(SharingAtRating {
         mesh: path.to_owned(),
         gear: String::new(),

@@ -19,7 +19,7 @@ pub struct PlanetsAtRating {
     pub set: String,
     /// Gear state.
     pub gear: String,
-    /// True if no errors are stated, so that the values are those of one pin with an error of 10 um.
+    /// True if no errors are stated, so that the values are those of one pin with an error of 10 um, with members without bearings floating.
     pub assumed_equal: bool,
     /// Load of the most loaded planet over the mean. [-]
     pub k_gamma: f64,
@@ -62,6 +62,11 @@ pub fn planet_sharings(language: &Language, checked: &CheckedGearbox) -> Vec<Pla
         if !(stated || set["load_sharing"].is_null()) || checked.transmission.rating.is_none() {
             return None;
         }
+        let floating = if stated {
+            Vec::new()
+        } else {
+            floating(&checked.resolved.value, set)
+        };
         let errors = |first: f64| {
             let count = set["count"].as_u64().unwrap_or(0) as usize;
             let errors: Vec<f64> = (0..count).map(|i| if i == 0 { first } else { 0.0 }).collect();
@@ -69,7 +74,7 @@ pub fn planet_sharings(language: &Language, checked: &CheckedGearbox) -> Vec<Pla
                 language,
                 checked,
                 id,
-                json!({ "errors": errors, "clearances": [], "meshes": [], "floating": [] }),
+                json!({ "errors": errors, "clearances": [], "meshes": [], "floating": floating }),
             )
         };
         let (own, other);
@@ -94,6 +99,40 @@ pub fn planet_sharings(language: &Language, checked: &CheckedGearbox) -> Vec<Pla
         })
     });
     found.collect()
+}
+
+/// The members of a set that float, since they have no bearings: carrier, and members whose gears mesh with the planets.
+fn floating(document: &Value, set: &Value) -> Vec<Value> {
+    let elements = |section: &str| document[section].as_object().into_iter().flatten();
+    let planets = set["planets"].as_array().map_or(&[] as &[Value], Vec::as_slice);
+    // A loose gear is a member of its own, with its id as the name.
+    let member = |gear: &Value| {
+        let written = &document["gears"][gear.as_str()?];
+        Some(if written["mounted"] == "loose" {
+            gear.clone()
+        } else {
+            written["shaft"].clone()
+        })
+    };
+    let mut members = vec![set["carrier"].clone()];
+    for (_, mesh) in elements("meshes") {
+        let gears = [&mesh["gears"][0], &mesh["gears"][1]].map(member);
+        if let [Some(first), Some(second)] = gears {
+            match [&first, &second].map(|member| planets.contains(member)) {
+                [true, false] => members.push(second),
+                [false, true] => members.push(first),
+                _ => {}
+            }
+        }
+    }
+    members.sort_by(|a, b| a.as_str().cmp(&b.as_str()));
+    members.dedup();
+    let held = |member: &Value| elements("bearings").any(|(_, own)| own["shaft"] == *member || own["outer"] == *member);
+    members.retain(|member| !held(member));
+    members
+        .into_iter()
+        .map(|shaft| json!({ "shaft": shaft, "stiffness": 0.0 }))
+        .collect()
 }
 
 /// The gearbox with other pins of a set; `None` if it cannot have them.

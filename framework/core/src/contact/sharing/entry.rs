@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::stiffness::StiffnessLaw;
 use crate::geometry::LoadSharing;
@@ -19,6 +20,18 @@ pub enum SharingEntry {
 impl Default for SharingEntry {
     fn default() -> Self {
         Self::Fixed(LoadSharing::default())
+    }
+}
+
+impl SharingEntry {
+    /// The load sharing that is written in a mesh model, its own or that of its law of mean friction, with its place as a JSON pointer.
+    pub fn of_model(model: &Value) -> Option<(&'static str, Self)> {
+        ["/load_sharing", "/mean_friction/load_sharing"]
+            .into_iter()
+            .find_map(|place| {
+                let written = serde_json::from_value(model.pointer(place)?.clone()).ok()?;
+                Some((place, written))
+            })
     }
 }
 
@@ -44,9 +57,9 @@ pub enum CalculatedSharing {
     },
     /// Shares or line loads over the plane of action from another program.
     File {
-        /// CSV file or workbook with the columns `torque [Nm]` (absent: valid for every torque), `path [-]` from 0 at the first to 1 at the
-        /// last contact if the first gear drives, `face [-]` from 0 to 1 (absent: the mean over the face), and `share [-]` or
-        /// `line load [N/mm]`.
+        /// CSV file or workbook with the columns `flank`, `drive` or `coast` (absent: both are alike), `torque [Nm]` (absent: valid for every
+        /// torque), `path [-]` from 0 at the first to 1 at the last contact if the first gear drives, `face [-]` from 0 to 1 (absent: the mean
+        /// over the face), and `share [-]` or `line load [N/mm]`.
         #[schemars(extend("x-refers-to" = "file"))]
         path: String,
     },

@@ -195,3 +195,20 @@ fn stiffness_at_speed_is_a_slope() {
         }
     }
 }
+
+/// The stiffness of the ring at speed is the slope of its displacement over the load, though gyroscopic moments make it unsymmetric.
+#[test]
+fn stiffness_of_the_ring_at_speed_is_a_slope() {
+    let bearing = bearing(steel());
+    let row = bearing.at_speed(1500.0);
+    let at = |axial: f64, radial: f64| balanced(&row, Axes::loaded(axial, radial));
+    let (middle, step) = (at(17_800.0, 6000.0), 1.0);
+    let axial = at(17_800.0 + step, 6000.0).displacement.axial - at(17_800.0 - step, 6000.0).displacement.axial;
+    assert_close(middle.axial_stiffness().unwrap_or_default(), 2.0 * step / axial, 1e-5);
+    let [ahead, behind] = [step, -step].map(|step| at(17_800.0, 6000.0 + step).displacement.radial[0]);
+    assert_close(
+        middle.radial_stiffness().unwrap_or_default(),
+        2.0 * step / (ahead - behind),
+        1e-5,
+    );
+}

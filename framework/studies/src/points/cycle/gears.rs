@@ -142,7 +142,7 @@ struct Evaluated {
     excess: f64,
 }
 
-/// Number of intervals that are evaluated together where their temperatures are given: several times the lanes, because only intervals of
+/// Number of intervals that are evaluated ahead where their temperatures are given: several times the lanes, because without notes intervals of
 /// one gear and one direction of power share them.
 const AHEAD: usize = 4 * LANES;
 
@@ -464,7 +464,7 @@ impl<'a> Chooser<'a> {
         Ok(())
     }
 
-    /// Solves demands at temperatures of their intervals, several together where they are of one case and one direction of power.
+    /// Solves demands at temperatures of their intervals; without notes several together where they are of one case and one direction of power.
     fn evaluate<'t>(
         &self,
         cases: &mut Cases<'_>,
@@ -492,7 +492,7 @@ impl<'a> Chooser<'a> {
             let warm = |k: usize| temperatures(asked[alike[k]].0);
             let solved = match self.noting {
                 Noting::Muted => t.snapshots(case, &points, &warm, Noting::Muted, scratch),
-                // Points side by side note the range of all of them, also of those whose gear is not chosen.
+                // One by one: points side by side would note the range of all of them, also of those whose gear is not chosen.
                 noting => (0..points.len())
                     .map(|n| t.snapshot(case, &points[n], warm(n), noting, scratch))
                     .collect(),
