@@ -189,7 +189,7 @@ fn shafts_without_what_their_deflection_needs_are_named() {
     let folder = folder("no-sections");
     let wanted = ("meshes.stage.shaft_deflection", json!(true));
     let fault = |changes: &[(&str, Value)]| built(&language, &folder, changes).err().unwrap().render();
-    let missing = fault(&[wanted.clone()]);
+    let missing = fault(std::slice::from_ref(&wanted));
     assert!(
         missing.contains("E0352") && missing.contains("`input` has no diameter"),
         "{missing}"

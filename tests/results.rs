@@ -37,7 +37,12 @@ const OPEN: [&str; 7] = [
 ];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 30] = [
+const OPTIONAL: [&str; 35] = [
+    "planets",
+    "elastic_modulus_gpa",
+    "reduced_modulus_gpa",
+    "material",
+    "outside_maps",
     "mesh_load",
     "of",
     "unit",
@@ -113,8 +118,10 @@ fn points() -> Vec<Value> {
         serde_json::from_str(&text).unwrap_or_else(|_| panic!("{}", String::from_utf8_lossy(&output.stderr)))
     };
     let unit = ["examples/electric-drive-unit/gearbox.yaml", "--speed", "4000 rpm"];
+    let planets = ["examples/planet-pins/gearbox.yaml", "--speed", "1800 rpm"];
     vec![
         solve(unit, &[]),
+        solve(planets, &[]),
         solve(
             unit,
             &["--set", "bearings.B0.model={ type: formula, formula: \"sqrt(-1)\" }"],

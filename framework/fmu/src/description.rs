@@ -51,6 +51,26 @@ fn part(name: &str) -> String {
     format!("'{}'", letters.collect::<String>())
 }
 
+fn loss_of(map: OfMap) -> &'static str {
+    match map {
+        OfMap::Gearbox => "Loss of the transmission",
+        OfMap::Unit => "Losses of gearbox, machines and inverters, which become heat",
+        OfMap::Machines => "Losses of machines and inverters, which become heat",
+    }
+}
+
+fn efficiency_of(map: OfMap) -> &'static str {
+    match map {
+        OfMap::Gearbox => "Output power over input power, in drive and coast; zero without output power",
+        OfMap::Unit => {
+            "Power at the other ports over the power of the DC link, while generating the reciprocal; zero if no power passes"
+        }
+        OfMap::Machines => {
+            "Power at the shafts of the machines over the power of the DC link, while generating the reciprocal; zero if no power passes"
+        }
+    }
+}
+
 /// Name, description and unit of a variable.
 pub fn info(fmu: &Fmu<'_>, slot: &Slot) -> Info {
     let plain = |name: &str, unit: Option<&'static str>, description: &str| Info {
@@ -81,28 +101,8 @@ pub fn info(fmu: &Fmu<'_>, slot: &Slot) -> Info {
         ),
         Use::Gear => plain("gear", None, &format!("Number of the gear: {}", gears(fmu.content))),
         Use::LossTorque => plain("loss.torque", Some("N.m"), "Loss over the speed of the reference port"),
-        Use::LossPower => plain(
-            "loss.power",
-            Some("W"),
-            match of_map(fmu.content) {
-                OfMap::Gearbox => "Loss of the transmission",
-                OfMap::Unit => "Losses of gearbox, machines and inverters, which become heat",
-                OfMap::Machines => "Losses of machines and inverters, which become heat",
-            },
-        ),
-        Use::Efficiency => plain(
-            "efficiency",
-            None,
-            match of_map(fmu.content) {
-                OfMap::Gearbox => "Output power over input power, in drive and coast; zero without output power",
-                OfMap::Unit => {
-                    "Power at the other ports over the power of the DC link, while generating the reciprocal; zero if no power passes"
-                }
-                OfMap::Machines => {
-                    "Power at the shafts of the machines over the power of the DC link, while generating the reciprocal; zero if no power passes"
-                }
-            },
-        ),
+        Use::LossPower => plain("loss.power", Some("W"), loss_of(of_map(fmu.content))),
+        Use::Efficiency => plain("efficiency", None, efficiency_of(of_map(fmu.content))),
         Use::DcPower => plain(
             "dc.power",
             Some("W"),

@@ -249,17 +249,15 @@ mod tests {
             width: 20e-3,
             teeth: 35.0,
         };
-        for (rim, share) in [
-            (7.4, "0.20"),
-            (14.8, "0.057"),
-            (29.6, "0.017"),
-            (51.8, "0.0077"),
-            (92.5, "0.0036"),
+        for (rim, expected, unit) in [
+            (7.4, 0.20, 0.01),
+            (14.8, 0.057, 0.001),
+            (29.6, 0.017, 0.001),
+            (51.8, 0.0077, 0.0001),
+            (92.5, 0.0036, 0.0001),
         ] {
             let speed = rim / 74e-3;
             let lifted = gear.lifted(loss(speed, [6.0, 30.0]), speed, 830.0);
-            let expected: f64 = share.parse().unwrap();
-            let unit = 10.0_f64.powi(-(share.len() as i32 - 2));
             assert!(
                 (lifted.flow / lifted.most - expected).abs() <= 0.5 * unit,
                 "{rim} {lifted:?}"

@@ -291,9 +291,10 @@ impl LoadedShares {
         let [.., end] = pair.points;
         let opening = slices.gap().under(USUAL).range() * stiffness.at(0.5 * (pair.points[0] + end), USUAL);
         let is_closed = slices.gap().is_none() || opening <= NO_GAP * 1e9;
-        let (coordinate, places) = match is_closed {
-            false => (Coordinate::Closing(opening), &PLACES),
-            true => (Coordinate::Closing(USUAL), &PLACES_UNMODIFIED),
+        let (coordinate, places) = if is_closed {
+            (Coordinate::Closing(USUAL), &PLACES_UNMODIFIED)
+        } else {
+            (Coordinate::Closing(opening), &PLACES)
         };
         let (found, mut error) = if is_closed && !stiffness.depends_on_load() {
             (vec![Knot::new(slices, coordinate, 1.0)], 0.0)

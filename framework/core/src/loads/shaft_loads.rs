@@ -685,7 +685,7 @@ impl<'a> System<'a> {
         });
         let mut all = vec![Vec::new(); self.layout.members.len()];
         self.pass(permanent.chain(teeth), |member, actions, _| {
-            all[member].extend_from_slice(actions)
+            all[member].extend_from_slice(actions);
         });
         all
     }

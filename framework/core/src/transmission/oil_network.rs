@@ -668,37 +668,9 @@ fn seated_pocket(
         );
     }
     let room = length.and_then(|length| {
-        let bearing = &around.document["bearings"][id];
-        let wrong = |message: &str, help: &str| {
-            Diagnostic::error(format!("{}.pocket.length", pocket.path), message)
-                .code(codes::OIL_NETWORK)
-                .help(help)
-        };
-        match (
-            raceway(around.parts, around.components, &pocket.path),
-            bearing["bore"].as_f64(),
-        ) {
-            (Some(outer), Some(bore)) => Some(Room {
-                length,
-                radii: [outer, 0.5 * bore],
-            }),
-            (Some(_), None) => {
-                found.push(wrong(
-                    "the oil in the pocket needs `bore` of the bearing, which is missing",
-                    "state `bore`, or remove `length`",
-                ));
-                None
-            }
-            (None, _) if bearing["lubrication"] == "grease" => {
-                found.push(wrong(
-                    "the bearing has `lubrication: grease`, so no oil stands in its pocket",
-                    "remove `length`, or state another `lubrication`",
-                ));
-                None
-            }
-            // A stated `oil_height`, or a bearing with a fault: both were reported.
-            (None, _) => None,
-        }
+        room_of(pocket, length, around)
+            .map_err(|fault| found.extend(fault))
+            .ok()
     });
     Some(Pocket {
         path: pocket.path.clone(),
@@ -712,6 +684,35 @@ fn seated_pocket(
         room,
         oil: pocket.oil,
     })
+}
+
+/// The room for oil between the rings of the bearing of a pocket with a length; no fault where another one was reported.
+fn room_of(pocket: &SeatedPocket, length: f64, around: &Around<'_>) -> Result<Room, Option<Diagnostic>> {
+    let id = pocket.path.strip_prefix("bearings.").unwrap_or_default();
+    let bearing = &around.document["bearings"][id];
+    let wrong = |message: &str, help: &str| {
+        let fault = Diagnostic::error(format!("{}.pocket.length", pocket.path), message);
+        Err(Some(fault.code(codes::OIL_NETWORK).help(help)))
+    };
+    match (
+        raceway(around.parts, around.components, &pocket.path),
+        bearing["bore"].as_f64(),
+    ) {
+        (Some(outer), Some(bore)) => Ok(Room {
+            length,
+            radii: [outer, 0.5 * bore],
+        }),
+        (Some(_), None) => wrong(
+            "the oil in the pocket needs `bore` of the bearing, which is missing",
+            "state `bore`, or remove `length`",
+        ),
+        (None, _) if bearing["lubrication"] == "grease" => wrong(
+            "the bearing has `lubrication: grease`, so no oil stands in its pocket",
+            "remove `length`, or state another `lubrication`",
+        ),
+        // A stated `oil_height`, or a bearing with a fault.
+        (None, _) => Err(None),
+    }
 }
 
 /// A window beside the gear that throws oil through it; its path.

@@ -372,7 +372,7 @@ struct Side {
     /// Force on the planet away from the axis of the carrier. \[-\]
     outwards: f64,
     /// Minus one for a mesh on the side of the axis of the carrier, one on the other.
-    side: f64,
+    sense: f64,
 }
 
 impl Bodies<'_> {
@@ -416,7 +416,7 @@ impl Bodies<'_> {
                 central: seat.members[1 - of_planet],
                 force: [tangential, tangential / pair.working_angle.cos()],
                 outwards: -side * tangential.abs() * pair.working_angle.tan(),
-                side,
+                sense: side,
             })
         });
         match (sides.next(), sides.next()) {
@@ -489,7 +489,7 @@ fn calculated(entry: &GearboxEntry, bodies: &Bodies<'_>, pins: &PinsEntry) -> Re
         };
         let rim = pins
             .rim_stiffness
-            .filter(|_| side.side > 0.0)
+            .filter(|_| side.sense > 0.0)
             .map_or(0.0, |own| 1.0 / own);
         compliance += (side.force[1] / pin).powi(2) * (1.0 / teeth + rim);
     }
@@ -513,7 +513,7 @@ fn calculated(entry: &GearboxEntry, bodies: &Bodies<'_>, pins: &PinsEntry) -> Re
     // The force of the first gear is that of the planet on the side of the ring; on the other side it has the other sense.
     let pins = sides
         .each_ref()
-        .map(|side| (side.mesh, side.side * pin / side.force[0]));
+        .map(|side| (side.mesh, side.sense * pin / side.force[0]));
     Ok(Some(Sharing::calculated(bodies.id, elastic, floating, pins)))
 }
 

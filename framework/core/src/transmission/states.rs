@@ -527,9 +527,8 @@ pub(crate) fn explain(
     };
     let list = |columns: &[usize]| columns.iter().map(name).collect::<Vec<_>>().join(", ");
     let row = |row: &usize| match state.rows.get(*row) {
-        Some(RowName::Path(path)) => path.clone(),
+        Some(RowName::Path(path) | RowName::Ratio(path)) => path.clone(),
         Some(RowName::Equal(path)) => format!("equal speeds of {path}"),
-        Some(RowName::Ratio(path)) => path.clone(),
         Some(RowName::Wheel(name)) => format!("equal speed of {name} and the other `wheels`"),
         None => String::new(),
     };

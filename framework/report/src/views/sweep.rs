@@ -190,6 +190,7 @@ impl<'a> Sweep<'a> {
 
     /// The loss over the first values at one second value.
     fn table(&self, set: &'a str, second: usize, page: &mut Page) {
+        type Read = fn(&PointOfSweep) -> Option<f64>;
         let values: Vec<Option<&SweepOfValue>> = (0..self.words.len()).map(|i| self.cell(set, [i, second])).collect();
         let Some(first) = values.iter().flatten().next() else {
             return;
@@ -200,7 +201,6 @@ impl<'a> Sweep<'a> {
         };
         let mut titles = vec!["torque Nm", "speed rpm"];
         titles.extend(self.words.iter().map(String::as_str));
-        type Read = fn(&PointOfSweep) -> Option<f64>;
         let of_unit: [(&str, Read); 2] = [
             ("loss of the drive unit in W", |point| Some(point.unit?.unit_loss_w)),
             ("system efficiency in %", |point| {

@@ -325,14 +325,13 @@ fn drive_through(
             (warm, chooser.as_ref()),
             &mut driven,
         )?;
-        let passed = match &mut march {
-            Some(march) => advance(march, &mut cases, &planned),
-            None => {
-                let solved = chooser
-                    .as_mut()
-                    .and_then(|chooser| chooser.take_solved(chosen[0].state));
-                steady(&mut cases, &planned[0], solved, &mut driven).map(|passed| vec![passed])
-            }
+        let passed = if let Some(march) = &mut march {
+            advance(march, &mut cases, &planned)
+        } else {
+            let solved = chooser
+                .as_mut()
+                .and_then(|chooser| chooser.take_solved(chosen[0].state));
+            steady(&mut cases, &planned[0], solved, &mut driven).map(|passed| vec![passed])
         };
         let passed = match passed {
             Ok(passed) => passed,
@@ -775,13 +774,12 @@ fn steady(
 ) -> Result<Passed, Unbalanced> {
     let Planned { interval, asked, .. } = planned;
     let (found, point) = solved.map_or((None, None), |solved| (solved.found, solved.point));
-    let warm = match found {
-        Some(warm) => warm,
-        None => {
-            let warm = steady_temperatures(cases, interval, asked, &planned.around)?;
-            driven.evaluations += warm.evaluations();
-            warm
-        }
+    let warm = if let Some(warm) = found {
+        warm
+    } else {
+        let warm = steady_temperatures(cases, interval, asked, &planned.around)?;
+        driven.evaluations += warm.evaluations();
+        warm
     };
     if !warm.is_sound() {
         let balance = warm.balance.as_ref().and_then(|b| b.undefined);
@@ -790,14 +788,13 @@ fn steady(
     }
     let t = cases.transmission;
     let duration = interval.duration;
-    let point = match point {
-        Some(point) => point,
-        None => {
-            driven.evaluations += 1;
-            let (case, scratch) = (&cases.known[asked.place].1, &mut cases.scratches[asked.place]);
-            let point = point_of(case, cases.ride, asked, interval.inclination);
-            t.snapshot(case, &point, warm.temperatures(), Noting::Seen, scratch)?
-        }
+    let point = if let Some(point) = point {
+        point
+    } else {
+        driven.evaluations += 1;
+        let (case, scratch) = (&cases.known[asked.place].1, &mut cases.scratches[asked.place]);
+        let point = point_of(case, cases.ride, asked, interval.inclination);
+        t.snapshot(case, &point, warm.temperatures(), Noting::Seen, scratch)?
     };
     point.count(t, &mut driven.seen);
     for (cell, watts) in point.lost_outside(t) {

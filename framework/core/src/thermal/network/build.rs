@@ -45,13 +45,7 @@ impl Network {
         let before = found.len();
         let ambient = entry.thermal.ambient;
         let all = || network.nodes.iter().map(|(_, node)| node);
-        let of_oil = entry.housing.oil.as_ref().map(|oil| oil.lubricant.as_str());
-        let lubricant = of_oil
-            .map_or_else(
-                || around.lubricants.first(),
-                |id| around.lubricants.iter().find(|(name, _)| name == id),
-            )
-            .map(|(_, lubricant)| Arc::clone(lubricant));
+        let lubricant = lubricant_of(entry, around);
         let links: Vec<Link> = network
             .links
             .iter()
@@ -144,6 +138,15 @@ impl Network {
         }
         (found.len() == before).then_some(built)
     }
+}
+
+/// That of the oil of the housing, else the first.
+fn lubricant_of(entry: &GearboxEntry, around: &Around<'_>) -> Option<Arc<Lubricant>> {
+    let found = match &entry.housing.oil {
+        Some(oil) => around.lubricants.iter().find(|(name, _)| *name == oil.lubricant),
+        None => around.lubricants.first(),
+    };
+    found.map(|(_, lubricant)| Arc::clone(lubricant))
 }
 
 fn node_of(names: &NodeNames, path: &str, id: &str, found: &mut Vec<Diagnostic>) -> Option<usize> {
