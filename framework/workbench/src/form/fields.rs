@@ -310,6 +310,10 @@ impl Reader<'_> {
                 FieldKind::Number,
                 help,
             );
+            let sharing = sharing.map(|field| Field {
+                example: Some("1.25"),
+                ..field
+            });
             [count, sharing]
         })
         .collect()
