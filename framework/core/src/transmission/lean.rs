@@ -6,7 +6,6 @@ use crate::codes;
 use crate::contact::sharing::{CalculatedSharing, SharingEntry, slices_of};
 use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
-use crate::evaluate::{Point, PowerFlow};
 use crate::loads::TiltFault;
 use serde_json::Value;
 
@@ -39,7 +38,7 @@ pub fn leans(t: &Transmission, entry: &GearboxEntry, resolved: &Value) -> Result
         entry.meshes.get(id)?.shaft_deflection.then_some((path, id))
     };
     let mut open: Vec<usize> = (0..t.meshes.len()).filter(|mesh| wanted(*mesh).is_some()).collect();
-    let Some(rating) = t.rating else {
+    if t.rating.is_none() {
         let missing = open.iter().filter_map(|mesh| wanted(*mesh)).map(|(path, _)| {
             fault(
                 path,
@@ -48,35 +47,20 @@ pub fn leans(t: &Transmission, entry: &GearboxEntry, resolved: &Value) -> Result
             .help("state `rating: { torque: ..., speed: ... }`")
         });
         return Err(missing.collect());
-    };
+    }
     for state in 0..t.states().len() {
-        let Some(case) = t.case_at_reference(state) else {
-            continue;
-        };
-        let mut scratch = t.scratch(&case);
-        let mut torques = vec![0.0; case.torque_ports.len()];
-        let Some(first) = torques.first_mut() else { continue };
-        *first = rating.torque;
-        let point = Point {
-            speeds: &[rating.speed],
-            torques: &torques,
-            flow: PowerFlow::Ideal,
-            ..Point::default()
-        };
-        let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
-        if !solution.has_flow() {
-            continue;
-        }
-        let forces = solution.tangential_forces();
-        open.retain(|mesh| {
-            let Some((path, id)) = wanted(*mesh).filter(|_| forces[*mesh] != 0.0) else {
-                return true;
-            };
-            match lean(t, *mesh, forces, &resolved["meshes"][id]["model"]) {
-                Ok(found) => leans[*mesh] = found,
-                Err(tilt) => faults.push(explain(t, path, &tilt)),
-            }
-            false
+        t.at_rating(state, |solution| {
+            let forces = solution.tangential_forces();
+            open.retain(|mesh| {
+                let Some((path, id)) = wanted(*mesh).filter(|_| forces[*mesh] != 0.0) else {
+                    return true;
+                };
+                match lean(t, *mesh, forces, &resolved["meshes"][id]["model"]) {
+                    Ok(found) => leans[*mesh] = found,
+                    Err(tilt) => faults.push(explain(t, path, &tilt)),
+                }
+                false
+            });
         });
     }
     faults.extend(open.iter().filter_map(|mesh| wanted(*mesh)).map(|(path, _)| {

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Case, CrossedKind, TransferLaw, Transmission};
+use crate::evaluate::{Point, PowerFlow, Solution};
 use crate::material::MaterialKind;
 
 /// Derived geometry of one mesh; values of two gears in the order of `gears`.
@@ -245,6 +246,24 @@ impl Transmission {
         alone
             .then(|| self.case(&state.name, &[reference], &order).ok())
             .flatten()
+    }
+
+    /// What `read` takes from the rated torque and speed at the reference port in a gear state, with an ideal flow; `None` without a rating, if
+    /// they do not determine the state, or if no power flows.
+    pub fn at_rating<T>(&self, state: usize, read: impl FnOnce(&Solution<'_>) -> T) -> Option<T> {
+        let rating = self.rating?;
+        let case = self.case_at_reference(state)?;
+        let mut scratch = self.scratch(&case);
+        let mut torques = vec![0.0; case.torque_ports.len()];
+        *torques.first_mut()? = rating.torque;
+        let point = Point {
+            speeds: &[rating.speed],
+            torques: &torques,
+            flow: PowerFlow::Ideal,
+            ..Point::default()
+        };
+        let solution = self.evaluate(&case, &point, &[self.oil_temperature], &mut scratch);
+        solution.has_flow().then(|| read(&solution))
     }
 
     /// Speed of the reference port over that of each other port in a gear state, by port; `None` if that port is stationary, and

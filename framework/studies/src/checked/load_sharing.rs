@@ -5,7 +5,6 @@ use std::sync::Arc;
 use gearloss_framework::contact::sharing::modification::FlankModification;
 use gearloss_framework::contact::sharing::stiffness::StiffnessLaw;
 use gearloss_framework::contact::sharing::{CalculatedSharing, SharingEntry, SlicesSharing};
-use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::language::Language;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, GearMeshAt};
 use gearloss_framework::registry::Build;
@@ -62,39 +61,25 @@ impl SharingAtRating {
 /// The loss of every mesh whose model has a load sharing, in the first gear that drives it at the rating.
 pub fn load_sharings(language: &Language, checked: &CheckedGearbox) -> Vec<SharingAtRating> {
     let t = &checked.transmission;
-    let Some(rating) = t.rating else { return Vec::new() };
     let mut found: Vec<SharingAtRating> = Vec::new();
     for (i, state) in t.states().iter().enumerate() {
-        let Some(case) = t.case_at_reference(i) else { continue };
-        let mut scratch = t.scratch(&case);
-        let mut torques = vec![0.0; case.torque_ports.len()];
-        let Some(first) = torques.first_mut() else { continue };
-        *first = rating.torque;
-        let point = Point {
-            speeds: &[rating.speed],
-            torques: &torques,
-            flow: PowerFlow::Ideal,
-            ..Point::default()
-        };
-        let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
-        if !solution.has_flow() {
-            continue;
-        }
-        for (mesh, path, _) in t.cylindrical_meshes() {
-            if found.iter().any(|known| known.mesh == path) {
-                continue;
+        t.at_rating(i, |solution| {
+            for (mesh, path, _) in t.cylindrical_meshes() {
+                if found.iter().any(|known| known.mesh == path) {
+                    continue;
+                }
+                let Some(at) = solution.mesh_at(mesh).filter(|at| at.torque > 0.0 && at.speed != 0.0) else {
+                    continue;
+                };
+                let id = path.trim_start_matches("meshes.");
+                let model = &checked.resolved.value["meshes"][id]["model"];
+                let own = sharing(language, checked, model, &at, path);
+                found.extend(own.map(|of| SharingAtRating {
+                    gear: state.name.clone(),
+                    ..of
+                }));
             }
-            let Some(at) = solution.mesh_at(mesh).filter(|at| at.torque > 0.0 && at.speed != 0.0) else {
-                continue;
-            };
-            let id = path.trim_start_matches("meshes.");
-            let model = &checked.resolved.value["meshes"][id]["model"];
-            let own = sharing(language, checked, model, &at, path);
-            found.extend(own.map(|of| SharingAtRating {
-                gear: state.name.clone(),
-                ..of
-            }));
-        }
+        });
     }
     found
 }

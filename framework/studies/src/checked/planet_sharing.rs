@@ -1,6 +1,5 @@
 //! What position errors of the pins of planets change at the rated torque: the stated ones, or one of 10 um where equal sharing is assumed.
 
-use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::language::Language;
 use gearloss_framework::transmission::{PlanetShares, Transmission};
 use schemars::JsonSchema;
@@ -144,17 +143,6 @@ fn with_pins(language: &Language, checked: &CheckedGearbox, set: &str, pins: Val
 
 /// Loss and load sharing at the rating; `None` if nothing is loaded.
 fn at_rating(t: &Transmission, state: usize) -> Option<(f64, Vec<PlanetShares>)> {
-    let rating = t.rating?;
-    let case = t.case_at_reference(state)?;
-    let mut scratch = t.scratch(&case);
-    let mut torques = vec![0.0; case.torque_ports.len()];
-    *torques.first_mut()? = rating.torque;
-    let point = Point {
-        speeds: &[rating.speed],
-        torques: &torques,
-        flow: PowerFlow::Ideal,
-        ..Point::default()
-    };
-    let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
-    Some((solution.loss()?, solution.planet_shares()))
+    t.at_rating(state, |solution| Some((solution.loss()?, solution.planet_shares())))
+        .flatten()
 }

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::{Pair, involute};
-pub use crate::material::Elastic;
+use crate::material::Elastic;
 
 /// Law of the stiffness of one pair of teeth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

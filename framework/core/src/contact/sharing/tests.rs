@@ -5,9 +5,10 @@ use std::sync::Arc;
 use proptest::prelude::*;
 
 use super::modification::{FlankModification, Relief, ReliefShape};
-use super::stiffness::{Elastic, StiffnessLaw};
+use super::stiffness::StiffnessLaw;
 use super::*;
 use crate::geometry::PairSpec;
+use crate::material::Elastic;
 use crate::mechanism::gear_mesh::MeshPart;
 
 pub const STEEL: Elastic = Elastic {
