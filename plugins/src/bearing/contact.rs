@@ -399,6 +399,7 @@ impl Contacts {
         let lines = [1.0, -1.0].map(|side| RollingLine {
             radius: 0.5 * diameter * (1.0 - side * gamma),
             length: geometry.length,
+            diameter,
             modulus,
         });
         let rib = self.rib_torque(geometry.contact_angle, diameter) * speed * raceways[1] / diameter;

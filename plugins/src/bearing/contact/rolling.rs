@@ -89,6 +89,8 @@ pub struct RollingLine {
     pub radius: f64,
     /// Length. \[m\]
     pub length: f64,
+    /// Diameter of the roller. \[m\]
+    pub diameter: f64,
     /// E' = 2 E*. \[Pa\]
     pub modulus: f64,
 }
@@ -99,6 +101,7 @@ impl RollingLine {
         let Self {
             radius,
             length,
+            diameter,
             modulus,
         } = *self;
         let w = load / (length * modulus * radius);
@@ -111,7 +114,11 @@ impl RollingLine {
                 let heating = (1.0 - 13.2 * pressure * thermal.powf(0.42)) / (1.0 + 0.213 * thermal.powf(0.64));
                 58.4 * heating.max(0.0) * unit * gu.powf(0.648) * w.powf(0.246)
             }
-            LineLaw::Aihara => 176.0 * oil.heating(speed) * unit * gu.powf(0.658) * w.powf(0.31),
+            LineLaw::Aihara => {
+                // His number of load has the radius of the roller, not the relative one.
+                let w = 2.0 * load / (diameter * length * modulus);
+                176.0 * oil.heating(speed) * unit * gu.powf(0.658) * w.powf(0.31)
+            }
             LineLaw::BibouletHoupert => 2.0 * self.force(load, oil.eta, speed) * radius * oil.heating(speed),
         }
     }
@@ -169,6 +176,7 @@ mod tests {
         let line = RollingLine {
             radius: 6e-3,
             length: 20e-3,
+            diameter: 17e-3,
             modulus: modulus(),
         };
         assert_close(line.force(1000.0, 0.02, 3.0), 1.156_661_7, 1e-7);
@@ -192,6 +200,7 @@ mod tests {
                 let line = RollingLine {
                     radius,
                     length,
+                    diameter: roller,
                     modulus: modulus(),
                 };
                 line.moment(law, load, &oil, speed)
