@@ -24,7 +24,7 @@ const OMITTED: &str = "\
 - Carrier losses according to Kettler, no-load losses of planetary sets according to Höhn: not public.
 - Talboom's tooth loss factor, Doleschel's constants of standard oils: not public.
 - Drag of bearings above n d_m = 0.5e6 mm/min according to Morales-Espejel and Wemekamp: not public. `beyond: hold` is a convention.
-- Raceway torques of tapered roller bearings according to Aihara, Zhou and Hoeprich, Matsuyama, Houpert: they require the internal geometry.
+- Raceway torques of tapered roller bearings according to Matsuyama, Houpert: one secondary source each. `contact` has those of Zhou and Hoeprich and of Aihara.
 - Dawson's update of 1988 requires a chart that is not public. SKF diagrams of shaft seals and Engelke's model: no closed form.
 - Rocker pins of silent chains, hysteresis of toothed belts, push belts, constant-velocity joints: no open law. `typical` has handbook values of
   chains and belts; `efficiency` and `table` accept those of the maker, also over ratio and angle.

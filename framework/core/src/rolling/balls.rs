@@ -39,13 +39,20 @@ impl BallGeometry {
         (self.conformity[0] + self.conformity[1] - 1.0) * self.diameter
     }
 
-    /// Contact with the inner ring (`0`) or the outer ring (`1`).
-    fn contact(&self, ring: usize) -> PointContact {
-        let gamma = self.diameter * self.contact_angle.cos() / self.pitch_diameter;
+    /// Relative radii of the contact with the inner ring (`0`) or the outer ring (`1`) along and across the direction of rolling, from the cosine of
+    /// its contact angle. \[m\]
+    pub fn radii(&self, ring: usize, cos: f64) -> [f64; 2] {
+        let gamma = self.diameter * cos / self.pitch_diameter;
         let side = [1.0, -1.0][ring];
-        let along = 0.5 * self.diameter * (1.0 - side * gamma);
         let conformity = self.conformity[ring];
-        let across = self.diameter * conformity / (2.0 * conformity - 1.0);
+        [
+            0.5 * self.diameter * (1.0 - side * gamma),
+            self.diameter * conformity / (2.0 * conformity - 1.0),
+        ]
+    }
+
+    fn contact(&self, ring: usize) -> PointContact {
+        let [along, across] = self.radii(ring, self.contact_angle.cos());
         PointContact::new(along, across, self.balls.contact_modulus(&self.rings))
     }
 }

@@ -170,6 +170,7 @@ const WANTED: f64 = 1e-11;
 const ROUNDING: f64 = 1e-14;
 
 /// Forces of all elements at a displacement; tilts as displacements at the radius.
+#[derive(Clone, Copy)]
 struct Reaction {
     force: Vector,
     stiffness: Matrix,
@@ -314,7 +315,7 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
         .fold(0.0, f64::max);
     let mut at = reaction(row, &u);
     let mut off = problem.residual(&at.force);
-    let mut best = (off.amax(), u);
+    let mut best = (off.amax(), u, at);
     for _ in 0..STEPS {
         let size = off.amax();
         // Forces beyond all numbers, such as those of an absurd speed.
@@ -322,7 +323,7 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
             return Err(Unbalanced);
         }
         if size < best.0 {
-            best = (size, u);
+            best = (size, u, at);
         }
         let rounding = ROUNDING * at.loads;
         if size <= rounding.max(WANTED * applied) {
@@ -359,8 +360,7 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
         }
         (u, at, off) = (next, reached, residual);
     }
-    let (residual, u) = best;
-    let at = reaction(row, &u);
+    let (residual, u, at) = best;
     let is_balanced = residual <= (ACCEPTED * applied).max(10.0 * ROUNDING * at.loads);
     if !(is_balanced && at.stiffness.sum().is_finite()) {
         return Err(Unbalanced);

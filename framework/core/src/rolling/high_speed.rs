@@ -110,7 +110,7 @@ fn combine(a: Matrix, b: Matrix, of: impl Fn(f64, f64) -> f64) -> Matrix {
 }
 
 fn norm([x, y]: [f64; 2]) -> f64 {
-    x.hypot(y)
+    (x * x + y * y).sqrt()
 }
 
 fn solve([[a, b], [c, d]]: Matrix, [x, y]: [f64; 2]) -> [f64; 2] {
@@ -263,8 +263,11 @@ impl BallsAtSpeed<'_> {
             let off = at.off();
             let size = norm(off);
             let forces = at.contacts[0].load + at.contacts[1].load + at.centrifugal;
+            if size <= 1e-14 * forces {
+                break;
+            }
             let step = solve(at.stiffness()[0], off);
-            if size <= 1e-14 * forces || !(step[0].is_finite() && step[1].is_finite()) {
+            if !(step[0].is_finite() && step[1].is_finite()) {
                 break;
             }
             let mut share = 1.0;
@@ -330,6 +333,9 @@ impl Row for BallsAtSpeed<'_> {
     }
 
     fn guess(&self, axial: f64, radial: f64) -> [f64; 2] {
-        self.balls.guess(axial, radial)
+        // Balls that are thrown outwards open the bearing as a load on all of them does.
+        let slow = self.centrifugal(0.5 * self.speed);
+        self.balls
+            .guess(axial, radial + self.balls.directions().len() as f64 * slow)
     }
 }

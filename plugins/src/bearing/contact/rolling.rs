@@ -42,6 +42,12 @@ impl InletOil {
         self.eta * self.beta * speed * speed / self.conductivity
     }
 
+    /// Factor of heating at the inlet according to Zhou and Hoeprich for pure rolling, from the maximum pressure over E'; negative beyond its range.
+    fn heating_of_zhou_hoeprich(&self, pressure: f64, speed: f64) -> f64 {
+        let thermal = self.thermal_load(speed);
+        (1.0 - 13.2 * pressure * thermal.powf(0.42)) / (1.0 + 0.213 * thermal.powf(0.64))
+    }
+
     /// Factor of heating at the inlet on rolling friction according to Aihara.
     pub fn heating(&self, speed: f64) -> f64 {
         1.0 / (1.0 + 0.29 * self.thermal_load(speed).powf(0.78))
@@ -52,6 +58,17 @@ impl InletOil {
 pub fn starvation(height: f64) -> f64 {
     let square = height * height;
     (square + 162.8 * height) / (square + 193.1 * height + 1257.0)
+}
+
+/// Rolling forces of a flooded, cold point contact.
+#[derive(Debug, Clone, Copy)]
+struct Regimes {
+    /// Of rigid bodies and a constant viscosity. \[N\]
+    isoviscous: f64,
+    /// Of bodies that the film deforms. \[N\]
+    elastic: f64,
+    /// M, which decides between both.
+    load_number: f64,
 }
 
 /// A point contact that rolls.
@@ -70,15 +87,25 @@ pub struct RollingPoint {
 impl RollingPoint {
     /// Rolling force of the flooded, cold contact under a load, at a mean speed of both surfaces. \[N\]
     pub fn force(&self, load: f64, ellipse: &Ellipse, eta: f64, speed: f64) -> f64 {
+        let Regimes {
+            isoviscous,
+            elastic,
+            load_number,
+        } = self.regimes(load, ellipse, eta, speed);
+        elastic + (isoviscous - elastic) / (1.0 + load_number / 6.6)
+    }
+
+    fn regimes(&self, load: f64, ellipse: &Ellipse, eta: f64, speed: f64) -> Regimes {
         let unit = self.modulus * self.along * self.along;
         let u = 2.0 * eta * speed / (self.modulus * self.along);
         let kappa = ellipse.along / ellipse.across;
         let b = 4.0 / PI * self.second / (1.0 + self.along / self.across);
-        let m = b.powf(0.25) * kappa * (load / unit) / u.powf(0.75);
         let width = 2.0 * ellipse.across / self.along * unit;
-        let isoviscous = 0.77 * b.powf(-1.0 / 3.0) * kappa.powf(0.12) * width * u.powf(2.0 / 3.0);
-        let elastic = 1.8 * b.powf(-0.25) * width * u.powf(0.75);
-        elastic + (isoviscous - elastic) / (1.0 + m / 6.6)
+        Regimes {
+            isoviscous: 0.77 * b.powf(-1.0 / 3.0) * kappa.powf(0.12) * width * u.powf(2.0 / 3.0),
+            elastic: 1.8 * b.powf(-0.25) * width * u.powf(0.75),
+            load_number: b.powf(0.25) * kappa * (load / unit) / u.powf(0.75),
+        }
     }
 }
 
@@ -89,6 +116,8 @@ pub struct RollingLine {
     pub radius: f64,
     /// Length. \[m\]
     pub length: f64,
+    /// Diameter of the roller. \[m\]
+    pub diameter: f64,
     /// E' = 2 E*. \[Pa\]
     pub modulus: f64,
 }
@@ -99,6 +128,7 @@ impl RollingLine {
         let Self {
             radius,
             length,
+            diameter,
             modulus,
         } = *self;
         let w = load / (length * modulus * radius);
@@ -106,23 +136,30 @@ impl RollingLine {
         let unit = radius * radius / oil.alpha * length;
         match law {
             LineLaw::ZhouHoeprich => {
-                let thermal = oil.thermal_load(speed);
-                let pressure = (w / (2.0 * PI)).sqrt();
-                let heating = (1.0 - 13.2 * pressure * thermal.powf(0.42)) / (1.0 + 0.213 * thermal.powf(0.64));
+                let heating = oil.heating_of_zhou_hoeprich((w / (2.0 * PI)).sqrt(), speed);
                 58.4 * heating.max(0.0) * unit * gu.powf(0.648) * w.powf(0.246)
             }
-            LineLaw::Aihara => 176.0 * oil.heating(speed) * unit * gu.powf(0.658) * w.powf(0.31),
+            LineLaw::Aihara => {
+                // His number of load has the radius of the roller, not the relative one.
+                let w = 2.0 * load / (diameter * length * modulus);
+                176.0 * oil.heating(speed) * unit * gu.powf(0.658) * w.powf(0.31)
+            }
             LineLaw::BibouletHoupert => 2.0 * self.force(load, oil.eta, speed) * radius * oil.heating(speed),
         }
     }
 
     /// Rolling force of the flooded, cold contact according to Biboulet and Houpert. \[N\]
     pub fn force(&self, load: f64, eta: f64, speed: f64) -> f64 {
-        let w = load / (self.length * self.modulus * self.radius);
-        let u = 2.0 * eta * speed / (self.modulus * self.radius);
-        let m = w / u.sqrt();
+        let [u, w, m] = self.numbers(load, eta, speed);
         let bend = (1.0 + (1.4 / 1.45 * m.sqrt()).powi(10)).powf(0.1);
         1.42 * (u * w).sqrt() / bend * self.modulus * self.radius * self.length
+    }
+
+    /// Their numbers of speed U and of load W, and M = W/sqrt(U).
+    fn numbers(&self, load: f64, eta: f64, speed: f64) -> [f64; 3] {
+        let w = load / (self.length * self.modulus * self.radius);
+        let u = 2.0 * eta * speed / (self.modulus * self.radius);
+        [u, w, w / u.sqrt()]
     }
 
     /// Half width of the contact under a load. \[m\]
@@ -134,34 +171,65 @@ impl RollingLine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearloss_framework::rolling::{Material, PointContact};
+    use gearloss_framework::rolling::{BallGeometry, Balls, Material};
     use gearloss_framework::testing::assert_close;
 
     fn modulus() -> f64 {
         2.0 * Material::STEEL.contact_modulus(&Material::STEEL)
     }
 
-    fn force(along: f64, across: f64, load: f64) -> f64 {
-        let contact = PointContact::new(along, across, 0.5 * modulus());
+    /// The contact of a ball of 15.081 mm on 65 mm with a ring under a load, its rolling force and what it consists of.
+    fn rolling(balls: Material, ring: usize, load: f64) -> (f64, Regimes) {
+        let geometry = BallGeometry {
+            number: 8,
+            diameter: 15.081e-3,
+            pitch_diameter: 65e-3,
+            conformity: [0.52, 0.53],
+            contact_angle: 0.0,
+            clearance: 0.0,
+            balls,
+            rings: Material::STEEL,
+        };
+        let contact = Balls::new(geometry).contacts()[ring];
+        let [along, across] = geometry.radii(ring, 1.0);
         let point = RollingPoint {
             along,
             across,
-            modulus: modulus(),
+            modulus: 2.0 * balls.contact_modulus(&Material::STEEL),
             second: contact.second_integral(),
         };
-        point.force(load, &contact.under(load), 0.01275, 3.0)
+        let (ellipse, eta, speed) = (contact.under(load), 0.01275, 3.0);
+        (
+            point.force(load, &ellipse, eta, speed),
+            point.regimes(load, &ellipse, eta, speed),
+        )
     }
 
     /// Values of an independent implementation for both contacts of a 6308.
     #[test]
     fn points_of_a_6308() {
-        for (load, inner, outer) in [
-            (100.0, 0.079_492_368, 0.075_633_970),
-            (1500.0, 0.177_677_97, 0.164_927_23),
+        for (load, [isoviscous, elastic, load_number], inner, outer) in [
+            (
+                100.0,
+                [0.163_269_07, 0.071_461_932, 68.853_824],
+                0.079_492_368,
+                0.075_633_970,
+            ),
+            (
+                1500.0,
+                [0.402_656_15, 0.176_240_28, 1032.8074],
+                0.177_677_97,
+                0.164_927_23,
+            ),
         ] {
-            assert_close(force(5.790_988e-3, 196.053e-3, load), inner, 1e-6);
-            assert_close(force(9.290_012e-3, 133.2155e-3, load), outer, 1e-6);
+            let (force, regimes) = rolling(Material::STEEL, 0, load);
+            assert_close(regimes.isoviscous, isoviscous, 5e-8);
+            assert_close(regimes.elastic, elastic, 5e-8);
+            assert_close(regimes.load_number, load_number, 5e-8);
+            assert_close(force, inner, 5e-8);
+            assert_close(rolling(Material::STEEL, 1, load).0, outer, 5e-8);
         }
+        assert_close(rolling(Material::SILICON_NITRIDE, 0, 1500.0).0, 0.175_33, 3e-5);
     }
 
     #[test]
@@ -169,45 +237,65 @@ mod tests {
         let line = RollingLine {
             radius: 6e-3,
             length: 20e-3,
+            diameter: 17e-3,
             modulus: modulus(),
         };
-        assert_close(line.force(1000.0, 0.02, 3.0), 1.156_661_7, 1e-7);
-        assert_close(line.force(5.0, 0.02, 3.0), 0.155_553_21, 1e-7);
+        for (load, [u, w, m], force) in [
+            (1000.0, [8.666_666_7e-11, 3.611_111_1e-5, 3.878_955_6], 1.156_661_7),
+            (5.0, [8.666_666_7e-11, 1.805_555_56e-7, 0.019_394_778], 0.155_553_21),
+        ] {
+            let found = line.numbers(load, 0.02, 3.0);
+            for (found, expected) in found.into_iter().zip([u, w, m]) {
+                assert_close(found, expected, 5e-8);
+            }
+            assert_close(line.force(load, 0.02, 3.0), force, 5e-8);
+        }
     }
 
-    /// Moments of the raceways of a 32216 under 6 kN of thrust in an oil of 60.6 mm2/s, by an independent implementation.
+    /// Both raceways of a 32216 under 6 kN of thrust, by an independent implementation: sixteen rollers of 17 mm by 22.7 mm with the load of the
+    /// outer raceway, in an oil of 60.5926 mm2/s.
     #[test]
     fn raceways_of_a_32216() {
-        let (roller, outer_raceway, inner_raceway) = (17e-3, 62.54e-3, 45.961_5e-3);
+        let load = 1_531.864_298;
+        let lines = [7.195_942e-3, 9.790_176e-3].map(|radius| RollingLine {
+            radius,
+            length: 22.7e-3,
+            diameter: 17e-3,
+            modulus: modulus(),
+        });
         let oil = InletOil {
-            eta: 60.592e-6 * 870.0,
+            eta: 60.5926e-6 * 870.0,
             alpha: 2e-8,
             beta: 0.046_134_733,
             conductivity: 0.137,
         };
-        let length = 22.7e-3;
-        let moment = |law: LineLaw, rpm: f64| {
-            let speed = rpm * PI / 30.0 * inner_raceway * outer_raceway / (inner_raceway + outer_raceway);
-            let of = |radius: f64, load: f64| {
-                let line = RollingLine {
-                    radius,
-                    length,
-                    modulus: modulus(),
-                };
-                line.moment(law, load, &oil, speed)
-            };
-            let (inner, outer) = (of(7.195_942e-3, 1532.07), of(9.790_176e-3, 1531.86));
-            16.0 * (outer_raceway * inner + inner_raceway * outer) / roller * 1e3
-        };
-        // The length of the rollers is only known to three digits.
-        for (rpm, zhou_hoeprich, aihara, flooded) in [
-            (500.0, 1525.694, 2057.693, 2752.616),
-            (2000.0, 3296.916, 4428.224, 6699.264),
-            (4000.0, 4290.548, 5380.380, 8512.811),
+        let speed = |rpm: f64| 5.548_463_580 * rpm / 2000.0;
+        for (line, m, force) in [
+            (lines[0], 2.165_163_5, 4.494_688_280),
+            (lines[1], 1.856_262_1, 4.838_271_957),
         ] {
-            assert_close(moment(LineLaw::ZhouHoeprich, rpm), zhou_hoeprich, 3e-3);
-            assert_close(moment(LineLaw::Aihara, rpm), aihara, 3e-3);
-            assert_close(moment(LineLaw::BibouletHoupert, rpm), flooded, 3e-3);
+            assert_close(line.numbers(load, oil.eta, speed(2000.0))[2], m, 1e-6);
+            assert_close(line.force(load, oil.eta, speed(2000.0)), force, 1e-6);
+        }
+        let moment = |law: LineLaw, oil: &InletOil, rpm: f64| {
+            let power = lines.map(|line| line.moment(law, load, oil, speed(rpm)) * speed(rpm) / line.radius);
+            16.0 * (power[0] + power[1]) / (rpm * PI / 30.0) * 1e3
+        };
+        let cold = InletOil { beta: 0.0, ..oil };
+        for (rpm, thermal, zhou_hoeprich, aihara, flooded, flooded_cold) in [
+            (500.0, 0.969_250, 1525.694, 2057.693, 2752.616, 2809.9),
+            (2000.0, 0.854_092, 3296.916, 4428.224, 6699.264, 7911.9),
+            (4000.0, 0.710_415, 4290.548, 5380.380, 8512.811, 13_056.0),
+        ] {
+            assert_close(
+                oil.heating_of_zhou_hoeprich(503.15e6 / modulus(), speed(rpm)),
+                thermal,
+                1e-6,
+            );
+            assert_close(moment(LineLaw::ZhouHoeprich, &oil, rpm), zhou_hoeprich, 3e-7);
+            assert_close(moment(LineLaw::Aihara, &oil, rpm), aihara, 3e-7);
+            assert_close(moment(LineLaw::BibouletHoupert, &oil, rpm), flooded, 3e-7);
+            assert_close(moment(LineLaw::BibouletHoupert, &cold, rpm), flooded_cold, 4e-5);
         }
     }
 

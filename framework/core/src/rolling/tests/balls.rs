@@ -12,10 +12,27 @@ fn contacts_of_a_6308() {
         pitch_diameter: 65.0 * MM,
         ..seven_balls(0.0)
     });
-    for (ring, ratio, a, b, p0) in [
-        (0, 0.104_708_42, 1.864_239_8, 0.195_201_61, 1968.1014),
-        (1, 0.177_320_73, 1.528_503_7, 0.271_035_39, 1728.7816),
+    for (ring, [along, across], ratio, a, b, p0) in [
+        (
+            0,
+            [5.790_988, 196.053],
+            0.104_708_42,
+            1.864_239_8,
+            0.195_201_61,
+            1968.1014,
+        ),
+        (
+            1,
+            [9.290_012, 133.2155],
+            0.177_320_73,
+            1.528_503_7,
+            0.271_035_39,
+            1728.7816,
+        ),
     ] {
+        let radii = bearing.geometry().radii(ring, 1.0);
+        assert_close(radii[0], along * MM, 1e-7);
+        assert_close(radii[1], across * MM, 1e-7);
         let contact = bearing.contacts()[ring];
         assert_close(contact.ratio(), ratio, 5e-8);
         let found = contact.under(1500.0);

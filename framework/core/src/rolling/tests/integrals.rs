@@ -37,6 +37,29 @@ fn half_a_zone() {
         assert_close(1.0 / radial, greatest, 1e-6);
         assert_close(axial / radial, thrust, 1e-6);
     }
+    // The most loaded of fourteen rollers under 5 kN.
+    let [_, radial] = load_integral(0.5, Contact::Line.exponent());
+    assert_close(5000.0 / (14.0 * radial), 1458.9255, 5e-8);
+}
+
+/// Load zones of single angular contact bearings under the thrust that catalogues take as their least: Fa = 0.50, 0.57, 0.66, 0.88 Fr.
+#[test]
+fn zones_of_catalogues() {
+    for (degrees, thrust, expected) in [
+        (20.0, 0.50, 0.735),
+        (25.0, 0.57, 0.512),
+        (30.0, 0.66, 0.360),
+        (40.0, 0.88, 0.137),
+    ] {
+        let row = ManyElements {
+            number: 12.0,
+            stiffness: 1e9,
+            contact_angle: f64::to_radians(degrees),
+            contact: Contact::Point,
+        };
+        let zone = row.zone(1000.0, 1000.0 * thrust).unwrap_or_default();
+        assert!((zone - expected).abs() < 0.0005, "{degrees}: {zone}");
+    }
 }
 
 /// Bearings with very many balls or rollers and no clearance.
