@@ -8,7 +8,7 @@ import { Entry, Frame, Scale, Stage, TEXT, Tooltip, axes, canvas, fitted, html, 
 import type { PanelQuantity, Panels } from "./types.ts";
 
 /** Title of a quantity with its unit. */
-const quantityName = (q: PanelQuantity) => (q.unit ? `${q.name} in ${q.unit}` : q.name);
+const quantityName = (q: PanelQuantity) => (q.unit && q.unit !== "-" ? `${q.name} in ${q.unit}` : q.name);
 
 interface Shown {
   index: number;

@@ -6,7 +6,6 @@ use crate::page::Page;
 use crate::text::{extremes, label_of_set, of_set, range, short};
 
 pub fn add(outcome: &ContactPathOutcome, page: &mut Page) {
-    let Some(first) = outcome.paths.first() else { return };
     let sets = outcome.paths.len();
     let mut sentences = Vec::new();
     for path in &outcome.paths {
@@ -31,10 +30,15 @@ pub fn add(outcome: &ContactPathOutcome, page: &mut Page) {
             page.careful.push(format!("{path}: {why}"));
         }
         if !words.is_empty() {
-            sentences.push(format!("{}{}", of_set(set, sets), words.join(", ")));
+            let subject = if sentences.is_empty() {
+                format!("Mesh {} {}", path.mesh, of_set(set, sets))
+            } else {
+                of_set(set, sets)
+            };
+            sentences.push(format!("{}: {}", subject.trim_end(), words.join(", ")));
         }
     }
-    page.headline = (!sentences.is_empty()).then(|| format!("Mesh {}: {}", first.mesh, sentences.join("; ")));
+    page.headline = (!sentences.is_empty()).then(|| sentences.join("; "));
 }
 
 /// The least and the largest value along a path.
