@@ -191,10 +191,14 @@ fn a_limit_of_severity_error_ends_the_run_with_a_finding() {
         "{text}"
     );
     assert!(
-        text.contains("m: life: basic rating life L10h of bearings.B2 is"),
+        text.contains("m: life: basic rating life L10h of bearing B2 is"),
+        "{text}"
+    );
+    assert!(
+        text.contains("the limits `life`, `film` and `efficient` are not kept"),
         "{text}"
     );
     assert_eq!(run("warning").0, Some(0));
     let report = std::fs::read_to_string(folder.join("results/report.html")).unwrap();
-    assert!(report.contains("limit life: basic rating life L10h of bearings.B2"));
+    assert!(report.contains("limit life: basic rating life L10h of bearing B2"));
 }

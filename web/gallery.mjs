@@ -53,8 +53,15 @@ for (const [kind, example, name, picture] of shown) {
   if (open !== report.href) await page.goto(pathToFileURL(report.pathname).href, { waitUntil: "load" });
   open = report.href;
   await page.evaluate((id) => document.getElementById(id).scrollIntoView(), `analysis-${name}`);
-  const figure = (await page.$$(`section[id="analysis-${name}"] figure`)).at(picture);
-  await figure.evaluate((e) => e.scrollIntoView({ block: "center" }));
+  // In the order of the analysis: the section shows the picture of the first screen last.
+  const ids = await page.$$eval(`section[id="analysis-${name}"] .picture`, (list) => list.map((e) => e.dataset.picture).sort((a, b) => a.localeCompare(b, "en", { numeric: true })));
+  const figure = await page.$(`section[id="analysis-${name}"] figure:has([data-picture="${ids.at(picture)}"])`);
+  await figure.evaluate((e) => {
+    for (let up = e.closest("details"); up; up = up.parentElement.closest("details")) up.open = true;
+    e.classList.add("wide");
+    e.scrollIntoView({ block: "center" });
+  });
+  await page.waitForFunction((e) => e.querySelector(".picture[data-drawn] svg"), {}, figure);
   await new Promise((done) => setTimeout(done, 300));
   const file = `${kind}-${name}.png`.replaceAll("_", "-");
   await figure.screenshot({ path: new URL(`docs/gallery/${file}`, root).pathname });

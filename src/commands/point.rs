@@ -120,9 +120,15 @@ pub fn prepare(args: &PointArgs, gearbox: &Gearbox, transmission: &Transmission)
             .iter()
             .map(|p| ports[*p])
             .collect();
+        let (missing, torque) = if torques.len() < needed {
+            ("no speed and no torque is given", " --torque \"10 Nm\"")
+        } else {
+            ("no speed is given", "")
+        };
+        let speeds = released.join("=1000 rpm\" --speed \"");
         return Err(Failure::input(
-            "no speed is given",
-            format!("add --speed \"{}=1000 rpm\"", released.join("=1000 rpm\" --speed \"")),
+            missing,
+            format!("add --speed \"{speeds}=1000 rpm\"{torque}"),
         ));
     }
     if torques.len() < needed {

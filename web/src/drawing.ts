@@ -1,6 +1,6 @@
 // Colours the parts of a gearbox drawing by their losses at one point.
 
-import { short, significant } from "./format.ts";
+import { short, significant, withUnit, words } from "./format.ts";
 import { ticks } from "./levels.ts";
 import { canvas, svg } from "./svg.ts";
 
@@ -28,6 +28,12 @@ export function heatScale(parent: Element, most: number): void {
     svg(element, "text", { x: thick + 8, y: y + 4 }, short(watts));
   }
   svg(element, "text", { x: 0, y: 11 }, "loss in W");
+}
+
+/** The part with the largest loss in words; which loss gears show, if there are any. */
+export function largest(losses: PartLoss[], [path, watts]: PartLoss): string {
+  const shared = losses.some(([part]) => part.startsWith("gears.")) ? " Gears share the loss of their mesh equally." : "";
+  return `Largest: ${words(path)}, ${withUnit(significant(watts, 3), "W")}.${shared}`;
 }
 
 /** Fills the shapes of each part by its loss and adds the loss to its tooltip. Returns the part with the largest loss. */

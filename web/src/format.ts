@@ -74,6 +74,7 @@ function named(text: string): string {
 export function words(text: string): string {
   return visible(named(text))
     .replace(/\bdeg ?C\b/g, "°C")
+    .replace(/(\d |\bin )um\b/g, "$1µm")
     .replace(/\bmm2\b/g, "mm²")
     .replace(/\bmm3\b/g, "mm³")
     .replace(/\bm\/s2\b/g, "m/s²")

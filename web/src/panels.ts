@@ -8,7 +8,7 @@ import { Entry, Frame, Scale, Stage, TEXT, Tooltip, axes, canvas, fitted, html, 
 import type { PanelQuantity, Panels } from "./types.ts";
 
 /** Title of a quantity with its unit. */
-const quantityName = (q: PanelQuantity) => (q.unit ? `${q.name} in ${q.unit}` : q.name);
+const quantityName = (q: PanelQuantity) => (q.unit && q.unit !== "-" ? `${q.name} in ${q.unit}` : q.name);
 
 interface Shown {
   index: number;
@@ -72,7 +72,8 @@ export function drawPanels(stage: Stage, panels: Panels): void {
       frame,
       { low: xs[0], high: xs[xs.length - 1], name: lastRow ? panels.x[0] : "", numbers: lastRow },
       { low: ys[0], high: ys[ys.length - 1], name: "", numbers: firstInRow },
-      { grid: false },
+      // Numbers at the edges of neighbours do not touch.
+      { grid: false, inside: across > 1 },
     );
     if (k === 0) svg(element, "text", { x: 2, y: 12, class: "gl-name" }, words(panels.y[0]));
     const readout = svg(element, "text", { x: frame.right, y: top - 11, "text-anchor": "end", class: "gl-readout" });

@@ -1,8 +1,8 @@
 // The report page: draws its pictures when they come into view, equips its tables, follows the navigation, prepares printing.
 
 import { Drawn, Picture, colourBooks, draw } from "./draw.ts";
-import { colourByLoss, heatScale, legible } from "./drawing.ts";
-import { significant, withUnit, words } from "./format.ts";
+import { colourByLoss, heatScale, largest, legible } from "./drawing.ts";
+import { words } from "./format.ts";
 import { html } from "./svg.ts";
 import { equip } from "./table.ts";
 import { theme } from "./theme.ts";
@@ -236,7 +236,7 @@ function drawings(): void {
     const note = drawing.parentElement?.querySelector(".loss-note");
     if (!most || !note) continue;
     heatScale(note, most[1]);
-    html(note, "p", {}, `Loss at ${words(drawing.dataset.at ?? "")}. Largest: ${words(most[0])}, ${withUnit(significant(most[1], 3), "W")}. Gears share the loss of their mesh equally.`);
+    html(note, "p", {}, `Loss at ${words(drawing.dataset.at ?? "")}. ${largest(losses, most)}`);
   }
 }
 

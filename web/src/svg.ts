@@ -135,7 +135,7 @@ export function axes(
   frame: Frame,
   x: { low: number; high: number; name: string; numbers?: boolean },
   y: { low: number; high: number; name: string; numbers?: boolean },
-  look: { grid?: boolean } = { grid: true },
+  look: { grid?: boolean; inside?: boolean } = { grid: true },
 ): { sx: Scale; sy: Scale } {
   const { left, top, right, bottom } = frame;
   const sx = scale(x.low, x.high, left, right);
@@ -158,7 +158,8 @@ export function axes(
     svg(g, "line", { x1: p, x2: p, y1: top, y2: bottom, class: t === 0 ? "gl-zero" : look.grid ? "gl-grid" : "gl-none" });
     if (x.numbers !== false) {
       svg(g, "line", { x1: p, x2: p, y1: bottom, y2: bottom + 4, class: "gl-tick" });
-      svg(g, "text", { x: p, y: bottom + 17, "text-anchor": "middle" }, xNumbers[k]);
+      const half = look.inside ? textWidth(xNumbers[k]) / 2 : 0;
+      svg(g, "text", { x: Math.max(left + half, Math.min(right - half, p)), y: bottom + 17, "text-anchor": "middle" }, xNumbers[k]);
     }
   });
   svg(g, "rect", { x: left, y: top, width: right - left, height: bottom - top, class: "gl-frame" });

@@ -2,9 +2,11 @@
 
 use gearloss_framework::resolve::OWN_MODELS;
 use gearloss_studies::analyses::limits::reached::{LimitReached, Place};
+use gearloss_studies::distinct::distinct;
 
+use crate::names::{listed, model, of_component};
 use crate::page::Page;
-use crate::text::{TextTable, short};
+use crate::text::{TextTable, printed_unit, short};
 
 /// Adds the limits of an analysis: broken ones as sentences, all of them as a table.
 pub fn add(limits: &[LimitReached], page: &mut Page) {
@@ -13,6 +15,9 @@ pub fn add(limits: &[LimitReached], page: &mut Page) {
     }
     let broken = limits.iter().filter(|limit| limit.is_broken());
     page.limits = broken.map(|limit| format!("limit {}", sentence(limit))).collect();
+    if let Some(headline) = &mut page.headline {
+        headline.push_str(&verdict(limits));
+    }
     let mut table = TextTable::new(&["limit", "models", "quantity", "allowed", "worst", "where", "beyond"]);
     for limit in limits {
         table.row(vec![
@@ -31,13 +36,27 @@ pub fn add(limits: &[LimitReached], page: &mut Page) {
     page.table(table.titled("Limits of the study"));
 }
 
+/// Which limits are kept, as the end of a sentence; nothing if none is broken but some are not known everywhere.
+fn verdict(limits: &[LimitReached]) -> String {
+    let broken = limits.iter().filter(|limit| limit.is_broken());
+    let broken = distinct(broken.map(|limit| format!("`{}`", limit.limit)));
+    match &broken[..] {
+        [] if limits.iter().any(|limit| limit.points_unknown > 0) => String::new(),
+        [] => "; every limit is kept".to_owned(),
+        [one] => format!("; the limit {one} is not kept"),
+        several => format!("; the limits {} are not kept", listed(several)),
+    }
+}
+
 /// A broken limit with its worst value.
 pub fn sentence(limit: &LimitReached) -> String {
     let what = if limit.at.cycle.is_some() { "cycles" } else { "points" };
     let Some(worst) = limit.worst else {
         return format!(
             "{}: {} is unknown at all {} {what}; the limit cannot be kept",
-            limit.limit, limit.quantity, limit.points_unknown
+            limit.limit,
+            of_component(&limit.quantity),
+            limit.points_unknown
         );
     };
     let side = match limit.least {
@@ -49,7 +68,7 @@ pub fn sentence(limit: &LimitReached) -> String {
     format!(
         "{}: {} is {}{unit}, {side} {}{unit}, {}; beyond the limit at {} of {} {what}{}{}",
         limit.limit,
-        limit.quantity,
+        of_component(&limit.quantity),
         short(worst),
         short(bound),
         place(&without_repetition(limit)),
@@ -75,7 +94,7 @@ fn unknown(limit: &LimitReached) -> String {
 pub fn after(unit: &str) -> String {
     match unit {
         "-" => String::new(),
-        _ => format!(" {unit}"),
+        _ => format!(" {}", printed_unit(unit)),
     }
 }
 
@@ -83,7 +102,7 @@ pub fn after(unit: &str) -> String {
 pub fn in_unit(unit: &str) -> String {
     match unit {
         "-" => String::new(),
-        _ => format!(" in {unit}"),
+        _ => format!(" in {}", printed_unit(unit)),
     }
 }
 
@@ -108,7 +127,7 @@ fn without_repetition(limit: &LimitReached) -> Place {
 
 /// Where a value was found.
 fn place(at: &Place) -> String {
-    let component = at.component.iter().map(|component| format!("at {component}"));
+    let component = at.component.iter().map(|component| format!("at {}", model(component)));
     let cycle = at.cycle.iter().map(|cycle| format!("over {cycle}"));
     let torque = at.torque_nm.map(|torque| format!("{} Nm", short(torque)));
     let speed = at.speed_rpm.map(|speed| format!("{speed:.0} rpm"));

@@ -1,6 +1,6 @@
 //! Components, mechanisms and quantities of a study in the words of the field, for sentences and key figures.
 
-use crate::text::last_key;
+use crate::text::{last_key, quoted_set};
 
 /// A section of a gearbox: its key, one of its components, all of them.
 const SECTIONS: [[&str; 3]; 16] = [
@@ -45,7 +45,7 @@ const MECHANISMS: [[&str; 2]; 14] = [
 ];
 
 /// Ends of the paths of quantities.
-const QUANTITIES: [[&str; 2]; 19] = [
+const QUANTITIES: [[&str; 2]; 20] = [
     ["clearance.axial", "axial clearance of the housing"],
     ["clearance.radial", "radial clearance of the housing"],
     ["injection.flow", "injected oil flow"],
@@ -63,6 +63,7 @@ const QUANTITIES: [[&str; 2]; 19] = [
     ["rig.torque_offset_in", "torque offset of the rig"],
     ["surface.rq", "surface roughness"],
     ["thermal.oil", "oil temperature"],
+    ["tip_relief.amount", "tip relief"],
     ["viscosity.factor", "oil viscosity factor"],
     ["viscosity.vi", "viscosity index of the oil"],
 ];
@@ -100,6 +101,14 @@ pub fn model(path: &str) -> String {
         None => path.to_owned(),
         Some((owner, "" | "model")) => owner,
         Some((owner, rest)) => format!("{} of {owner}", spaced(last_key(rest.trim_end_matches(".model")))),
+    }
+}
+
+/// A quantity that ends with the path of its component: `life of bearings.B2` is `life of bearing B2`.
+pub fn of_component(quantity: &str) -> String {
+    match quantity.rsplit_once(" of ") {
+        Some((name, path)) => format!("{name} of {}", model(path)),
+        None => quantity.to_owned(),
     }
 }
 
@@ -149,7 +158,7 @@ impl<'a> SetNames<'a> {
 
     /// The same between backticks.
     pub fn quoted(&self, name: &str) -> String {
-        format!("`{}`", self.word(name))
+        quoted_set(&self.word(name))
     }
 }
 
@@ -164,7 +173,7 @@ pub fn listed(words: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{SetNames, cycle, listed, model, quantity, share};
+    use super::{SetNames, cycle, listed, model, of_component, quantity, share};
 
     #[test]
     fn paths_are_words_of_the_field() {
@@ -177,6 +186,8 @@ mod tests {
         assert_eq!(model("gears.G4.drag.churning.model"), "churning of gear G4");
         assert_eq!(share("bearings.B2"), "bearing B2");
         assert_eq!(share("gear_mesh"), "gear meshes");
+        assert_eq!(of_component("life of bearings.B2"), "life of bearing B2");
+        assert_eq!(of_component("loss of the drive unit"), "loss of the drive unit");
         assert_eq!((cycle("wltc"), cycle("town")), ("WLTC".to_owned(), "`town`".to_owned()));
         assert_eq!(listed(&["a", "b", "c"].map(str::to_owned)), "a, b and c");
     }

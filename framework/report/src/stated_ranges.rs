@@ -7,7 +7,7 @@ use gearloss_studies::distinct::distinct;
 use gearloss_studies::points::Note;
 
 use crate::names::model;
-use crate::text::{TextTable, beyond, number, short, significant};
+use crate::text::{TextTable, beyond, number, printed_unit, short, significant};
 
 /// Start of each line.
 const OUTSIDE: &str = "outside: ";
@@ -227,7 +227,7 @@ impl StatedRanges {
                 values.map_or_else(|| "left in some samples".to_owned(), |v| v.range.0.clone()),
                 values.map_or_else(String::new, |v| significant(v.least)),
                 values.map_or_else(String::new, |v| significant(v.greatest)),
-                values.map_or_else(String::new, |v| v.unit.to_owned()),
+                values.map_or_else(String::new, |v| printed_unit(v.unit).to_owned()),
                 percent(values.map(Values::share_of_points)),
                 percent(values.and_then(Values::loss_share)),
                 values.map_or_else(String::new, |v| v.range.1.clone()),
@@ -319,7 +319,13 @@ impl Group {
         let share = all.loss_share().map_or_else(String::new, |share| {
             format!(", with {} % of the loss", short(100.0 * share))
         });
-        let ends = match [all.least, all.greatest].map(short) {
+        // What is small beside the largest value is zero for a reader.
+        let least = if all.least.abs() < 1e-3 * all.greatest.abs() {
+            0.0
+        } else {
+            all.least
+        };
+        let ends = match [least, all.greatest].map(short) {
             [low, high] if low == high => low,
             [low, high] => format!("{low} to {high}"),
         };
@@ -337,7 +343,7 @@ fn unit(symbol: &str) -> String {
     if symbol == "-" {
         String::new()
     } else {
-        format!(" {symbol}")
+        format!(" {}", printed_unit(symbol))
     }
 }
 
@@ -384,5 +390,11 @@ mod tests {
         let short = "bearing B1 and 1 other: speed factor n_dm (1 to 9) is above the stated range 0 to 5 at 40 % of the points, \
                      with 50 % of the loss";
         assert_eq!(ranges.worst(), [short]);
+        let mut ranges = StatedRanges::default();
+        ranges.add(left("bearings.B1.model", 1e-6, "map"));
+        assert!(
+            ranges.worst()[0].contains("n_dm (0 to 9)"),
+            "small beside the largest value"
+        );
     }
 }

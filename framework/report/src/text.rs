@@ -45,9 +45,8 @@ impl TextTable {
     /// A table with its header, whose names end with their units.
     pub fn new(head: &[&str]) -> Self {
         let printed = |name: &&str| match name.rsplit_once(' ') {
-            Some((quantity, "degC")) => format!("{quantity} °C"),
-            Some((quantity, "um")) => format!("{quantity} µm"),
-            _ => (*name).to_owned(),
+            Some((quantity, unit)) => format!("{quantity} {}", printed_unit(unit)),
+            None => (*name).to_owned(),
         };
         Self {
             title: String::new(),
@@ -155,15 +154,24 @@ pub fn capitalised(text: &str) -> String {
         .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// A unit as it is printed.
+pub fn printed_unit(unit: &str) -> &str {
+    match unit {
+        "degC" => "°C",
+        "um" => "µm",
+        _ => unit,
+    }
+}
+
 /// A sentence with the units behind its numbers as they are printed: `100 degC` becomes `100 °C`, `0.2 um` becomes `0.2 µm`.
 pub fn with_printed_units(sentence: &str) -> String {
     let mut behind_number = false;
     let word = |word: &str| {
         let bare = word.trim_end_matches(|letter: char| !letter.is_alphanumeric());
-        let printed = match bare {
-            "degC" if behind_number => word.replacen(bare, "°C", 1),
-            "um" if behind_number => word.replacen(bare, "µm", 1),
-            _ => word.to_owned(),
+        let printed = if behind_number {
+            word.replacen(bare, printed_unit(bare), 1)
+        } else {
+            word.to_owned()
         };
         behind_number = bare.ends_with(|letter: char| letter.is_ascii_digit());
         printed
@@ -235,11 +243,23 @@ pub fn place(torque: f64, speed: f64) -> String {
     format!("{} Nm, {} rpm", short(torque), short(speed))
 }
 
-/// Two numbers as a range with the fewest decimals that distinguish them, at least `digits`.
+/// Two numbers as a range with the fewest decimals that distinguish them: at least `digits`, but none from four digits before the point
+/// on, and as many as give the larger number two significant digits.
 pub fn range(low: f64, high: f64, digits: usize) -> String {
-    let words = |digits: usize| [low, high].map(|x| spaced(&fixed(x, digits)));
-    let distinct = (digits..digits + 3).map(words).find(|[low, high]| low != high);
-    let [low, high] = distinct.unwrap_or_else(|| words(digits));
+    let largest = low.abs().max(high.abs());
+    let two_figures = if (1e-6..10.0).contains(&largest) {
+        (1.0 - largest.log10().floor()) as usize
+    } else {
+        0
+    };
+    let words = |more: usize| {
+        [low, high].map(|x| {
+            let least = if x.abs() < 999.5 { digits.max(two_figures) } else { 0 };
+            spaced(&fixed(x, least + more))
+        })
+    };
+    let distinct = (0..3).map(words).find(|[low, high]| low != high);
+    let [low, high] = distinct.unwrap_or_else(|| words(0));
     if low == high { low } else { format!("{low} to {high}") }
 }
 
@@ -278,6 +298,9 @@ mod tests {
         assert_eq!(signed(0.5), "+0.5");
         assert_eq!(range(98.1234, 98.1299, 1), "98.12 to 98.13");
         assert_eq!(range(50.0, 50.0, 1), "50.0");
+        assert_eq!(range(18.41, 2658.93, 1), "18.4 to 2659");
+        assert_eq!(range(0.0221, 0.3784, 0), "0.02 to 0.38");
+        assert_eq!(range(12_000.2, 12_000.4, 0), "12\u{202f}000.2 to 12\u{202f}000.4");
     }
 
     #[test]

@@ -101,11 +101,30 @@ impl Shown {
         out.line(on_one_line(head, &result))
     }
 
-    /// Limits of the study that are not kept, each with the name of its analysis.
+    /// Limits of the study that are not kept, each with the name of its analysis: all of them, or of each limit the worst.
     pub fn limits(self, width: usize, broken: &[(String, LimitReached)], out: &mut Out) -> io::Result<()> {
-        for (analysis, limit) in broken.iter().filter(|_| self.has_headlines()) {
+        if !self.has_headlines() {
+            return Ok(());
+        }
+        let all = self == Self::Everything;
+        for (analysis, limit) in broken {
+            let same = || {
+                broken
+                    .iter()
+                    .map(|(_, other)| other)
+                    .filter(|other| other.limit == limit.limit)
+            };
+            let worst = same().reduce(|a, b| if excess(b) > excess(a) { b } else { a });
+            if !all && !worst.is_some_and(|worst| std::ptr::eq(worst, limit)) {
+                continue;
+            }
+            let more = match same().count() - 1 {
+                0 => String::new(),
+                _ if all => String::new(),
+                more => format!("; not kept in {more} other results: see the report"),
+            };
             let sentence = with_printed_units(&limits::sentence(limit));
-            out.line(format!("  {:width$}  {analysis}: {sentence}", "limit"))?;
+            out.line(format!("  {:width$}  {analysis}: {sentence}{more}", "limit"))?;
         }
         Ok(())
     }
@@ -134,6 +153,16 @@ impl Shown {
     }
 }
 
+/// How far the worst value is beyond a limit; an unknown one is beyond any.
+fn excess(limit: &LimitReached) -> f64 {
+    let beyond = |worst: f64| {
+        let below = limit.least.map_or(f64::NEG_INFINITY, |least| least - worst);
+        let above = limit.most.map_or(f64::NEG_INFINITY, |most| worst - most);
+        below.max(above)
+    };
+    limit.worst.map_or(f64::INFINITY, beyond)
+}
+
 /// What fits a line, up to the end of a clause where possible.
 fn on_one_line(head: String, sentence: &str) -> String {
     const REST: &str = " ...";
@@ -151,7 +180,31 @@ fn on_one_line(head: String, sentence: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{LENGTH, on_one_line};
+    use gearloss_studies::analyses::limits::reached::{LimitReached, Place};
+    use gearloss_studies::study::Severity;
+
+    use super::{LENGTH, excess, on_one_line};
+
+    #[test]
+    fn the_worst_of_equal_limits_is_farthest_beyond_either_bound() {
+        let limit = |least, most, worst| LimitReached {
+            limit: "life".to_owned(),
+            model_set: "own".to_owned(),
+            quantity: "life".to_owned(),
+            unit: "h".to_owned(),
+            least,
+            most,
+            severity: Severity::Warning,
+            points: 1,
+            points_unknown: 0,
+            beyond: 1,
+            worst,
+            at: Place::default(),
+        };
+        assert_eq!(excess(&limit(Some(8.0), None, Some(3.0))), 5.0);
+        assert_eq!(excess(&limit(Some(8.0), Some(9.0), Some(11.0))), 2.0);
+        assert_eq!(excess(&limit(None, Some(9.0), None)), f64::INFINITY);
+    }
 
     #[test]
     fn a_line_ends_with_a_clause_or_a_word() {

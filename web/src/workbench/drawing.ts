@@ -1,7 +1,6 @@
 // The drawing of the gearbox: colours of the losses, parts that can be chosen.
 
-import { colourByLoss, heatScale, legible } from "../drawing.ts";
-import { significant, withUnit, words } from "../format.ts";
+import { colourByLoss, heatScale, largest, legible } from "../drawing.ts";
 import { html } from "../svg.ts";
 import type { FileRange, PointAnswer } from "./protocol.ts";
 
@@ -125,7 +124,7 @@ export class DrawingPane {
     this.scale.replaceChildren();
     if (most) {
       heatScale(this.scale, most[1]);
-      html(this.scale, "p", {}, `Largest: ${words(most[0])}, ${withUnit(significant(most[1], 3), "W")}. Gears share the loss of their mesh equally.`);
+      html(this.scale, "p", {}, largest(this.losses, most));
     }
   }
 

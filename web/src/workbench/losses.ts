@@ -1,6 +1,6 @@
 // Losses of the components as a table with bars: load-dependent and no-load parts, and those of the pinned state.
 
-import { MECHANISMS } from "../colours.ts";
+import { MECHANISMS, mechanismOf } from "../colours.ts";
 import { fixed, significant, words } from "../format.ts";
 import { html } from "../svg.ts";
 import { signed } from "./numbers.ts";
@@ -67,7 +67,7 @@ export function drawLosses(host: HTMLElement, answer: PointAnswer, pinned: Point
     const button = html(name, "button", { type: "button", title: `${row.path}, model ${row.model}`, "data-path": row.path }, nameOf(row.path));
     button.addEventListener("click", () => choose(row.path));
     const cell = html(line, "td", { class: "bar" });
-    const bar = html(cell, "div", { class: "bar-own", style: `--own:${MECHANISMS[row.mechanism] ?? MECHANISMS.others}` });
+    const bar = html(cell, "div", { class: "bar-own", style: `--own:${MECHANISMS[mechanismOf(row.mechanism)?.[0] ?? "others"]}` });
     const part = (type: string, value: number, parent: HTMLElement) => {
       if (value > 0) html(parent, "i", { class: type, style: `width:${((100 * value) / most).toFixed(2)}%` });
     };

@@ -14,7 +14,7 @@ use gearloss_studies::points::OilTemperature;
 use crate::exports;
 use crate::page::Page;
 use crate::register_view;
-use crate::text::{TextTable, fixed, number, short, spread};
+use crate::text::{TextTable, fixed, number, short, spread, words_of_set};
 
 register_view!(MapOutcome, show);
 
@@ -28,11 +28,7 @@ fn show(outcome: &MapOutcome, page: &mut Page) {
         Some(sets) => over_bound::show(outcome, sets, page),
         None => outcome.maps.iter().for_each(|map| show_map(name, map, page)),
     }
-    for map in &outcome.maps {
-        let cautions = map.outside_maps.iter().map(MachineOutside::caution);
-        page.careful
-            .extend(cautions.map(|text| format!("{name}, gear {}, models {}: {text}", map.gear, map.model_set)));
-    }
+    outside_maps(outcome, page);
     exports::add(outcome, page);
     for note in &outcome.about_measured {
         page.line(format!("{name}: measured: {note}"));
@@ -41,6 +37,29 @@ fn show(outcome: &MapOutcome, page: &mut Page) {
         page.line(format!("{name}: {thinned}"));
     }
     pictures::draw(outcome, page);
+}
+
+/// Machines outside their maps: maps with the same caution in one sentence.
+fn outside_maps(outcome: &MapOutcome, page: &mut Page) {
+    let mut cautions: Vec<(String, Vec<String>)> = Vec::new();
+    for map in &outcome.maps {
+        let at = format!("gear {}, {}", map.gear, words_of_set(&map.model_set));
+        for text in map.outside_maps.iter().map(MachineOutside::caution) {
+            match cautions.iter_mut().find(|(known, _)| *known == text) {
+                Some((_, places)) => places.push(at.clone()),
+                None => cautions.push((text, vec![at.clone()])),
+            }
+        }
+    }
+    let several = outcome.maps.len() > 1;
+    let sentence = |(text, places): (String, Vec<String>)| {
+        if several {
+            format!("{}: {text}", places.join("; "))
+        } else {
+            text
+        }
+    };
+    page.careful.extend(cautions.into_iter().map(sentence));
 }
 
 /// A map as a table.

@@ -21,13 +21,17 @@ fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
     for note in &outcome.file_notes {
         page.line(format!("{name}: {note}"));
     }
-    for of_set in &outcome.operating_points {
+    let sets = &outcome.operating_points;
+    let alike = |pair: &[PointsOfSet]| pair[0].shares == pair[1].shares;
+    // Sets at one point are bars of one picture.
+    let side_by_side = sets.len() > 1 && sets.iter().all(|set| set.points.len() == 1) && sets.windows(2).all(alike);
+    for of_set in sets {
         let set = &of_set.model_set;
         page.line(format!("{name}: losses in W, models {set}"));
         page.table(losses(&outcome.bound, of_set));
         differences(&of_set.points, page);
         page.line("");
-        let beside = if outcome.operating_points.len() > 1 {
+        let beside = if sets.len() > 1 {
             format!(" with {}", words_of_set(set))
         } else {
             String::new()
@@ -39,7 +43,25 @@ fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
             names: of_set.shares.clone(),
             bars: of_set.points.iter().map(bar).collect(),
         };
-        page.figure(format!("{name}-{set}"), figure);
+        let file = format!("{name}-{set}");
+        if side_by_side {
+            page.file_figure(file, figure);
+        } else {
+            page.figure(file, figure);
+        }
+    }
+    if side_by_side {
+        let bars = sets.iter().map(|of_set| Bar {
+            label: words_of_set(&of_set.model_set),
+            ..bar(&of_set.points[0])
+        });
+        page.report_figure(Figure::Bars {
+            title: format!("{name}: losses; oil temperature beside each bar"),
+            over: String::new(),
+            height: "loss in W".to_owned(),
+            names: sets[0].shares.clone(),
+            bars: bars.collect(),
+        });
     }
 }
 

@@ -8,11 +8,11 @@ use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome
 
 use crate::figure::Best;
 use crate::limits::{after, bounds, in_unit};
-use crate::names::quantity;
+use crate::names::{of_component, quantity};
 use crate::page::Page;
 use crate::plot::{Bar, Line, Stroke};
 use crate::register_view;
-use crate::text::{TextTable, fixed, number, short};
+use crate::text::{TextTable, fixed, number, printed_unit, short, with_printed_units};
 use crate::{Figure, Map};
 
 register_view!(SweepOutcome, show);
@@ -311,25 +311,20 @@ impl<'a> Sweep<'a> {
                 let (shares, above) = single(value, column.unit);
                 Some((shares, above + if beyond { ", beyond the limit" } else { "" }))
             });
-            let title = format!("{}, limit: {}", column.words, bounds(limit));
-            let height = format!("{}{}", column.words, in_unit(column.unit));
-            add(
-                &format!("limit-{}", column.name),
-                &title,
-                height,
-                vec![column.words.clone()],
-                values,
-            );
+            let words = of_component(&column.words);
+            let title = format!("{words}, limit: {}", bounds(limit));
+            let height = format!("{words}{}", in_unit(column.unit));
+            add(&format!("limit-{}", column.name), &title, height, vec![words], values);
         }
     }
 
     /// Loss and efficiency over the values.
     fn figures(&self, page: &mut Page) {
-        for quantity in QUANTITIES {
-            let (short, unit, _, read) = quantity;
+        for shown in QUANTITIES {
+            let (short, unit, _, read) = shown;
             let y = format!("{short} in {unit}");
             if let Some(second_path) = self.second_path {
-                for map in self.maps(second_path, quantity) {
+                for map in self.maps(second_path, shown) {
                     let title = map.title.replace([' ', ',', ':'], "");
                     page.figure(format!("{}-{short}-{title}", self.name), Figure::Map(map));
                 }
@@ -338,7 +333,7 @@ impl<'a> Sweep<'a> {
             let lines = self.lines(&read);
             if !lines.is_empty() {
                 let figure = Figure::Lines {
-                    title: format!("{}: {y}", self.name),
+                    title: format!("{}: {short} over {}", self.name, quantity(self.path)),
                     x: self.axis().1,
                     y,
                     lines,
@@ -377,9 +372,10 @@ impl<'a> Sweep<'a> {
                         })
                     }),
             );
-            let y = format!("{}{}", column.words, in_unit(column.unit));
+            let words = of_component(&column.words);
+            let y = format!("{words}{}", in_unit(column.unit));
             let figure = Figure::Lines {
-                title: format!("{}: {y}", self.name),
+                title: format!("{}: {words} over {}", self.name, quantity(self.path)),
                 x: x.clone(),
                 y,
                 lines,
@@ -390,16 +386,16 @@ impl<'a> Sweep<'a> {
 
     /// Positions of the values on the axis, and its title.
     fn axis(&self) -> (Vec<f64>, String) {
-        let (words, path) = (&self.words, self.path);
+        let (words, path) = (&self.words, quantity(self.path));
         let places = numbers(words).unwrap_or_default();
         let unit = words
             .first()
             .and_then(|w| w.split_once(' '))
             .map_or("", |(_, unit)| unit);
         let title = if unit.is_empty() {
-            path.to_owned()
+            path
         } else {
-            format!("{path} in {unit}")
+            format!("{path} in {}", printed_unit(unit))
         };
         (places, title)
     }
@@ -428,7 +424,8 @@ impl<'a> Sweep<'a> {
     }
 
     /// A map over both paths for each set, torque and speed.
-    fn maps(&self, second_path: &str, (quantity, unit, best, read): Quantity) -> Vec<Map> {
+    fn maps(&self, second_path: &str, (shown, unit, best, read): Quantity) -> Vec<Map> {
+        let printed = |words: &[String]| words.iter().map(|word| with_printed_units(word)).collect();
         let mut maps = Vec::new();
         for set in self.sets() {
             let points = self.outcome.sweep.iter().find(|value| value.model_set == set);
@@ -439,12 +436,12 @@ impl<'a> Sweep<'a> {
                 if values.iter().any(Option::is_some) {
                     maps.push(Map {
                         title: format!(
-                            "{}: {quantity} in {unit}, models {set}, {}",
+                            "{}: {shown} in {unit}, models {set}, {}",
                             self.name,
                             words_of_point(point)
                         ),
-                        x: (self.path.to_owned(), self.words.clone()),
-                        y: (second_path.to_owned(), self.second_words.clone()),
+                        x: (quantity(self.path), printed(&self.words)),
+                        y: (quantity(second_path), printed(&self.second_words)),
                         values,
                         unit: unit.to_owned(),
                         best: Some(best),

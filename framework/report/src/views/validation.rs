@@ -7,6 +7,7 @@ use gearloss_studies::analyses::validation::{
 };
 
 use crate::Figure;
+use crate::names::share;
 use crate::page::Page;
 use crate::picture::{Pane, Panes, Screen};
 use crate::plot::{Interval, Line, Stroke};
@@ -204,7 +205,7 @@ fn ratios(name: &str, found: &Validation) -> Figure {
         before: None,
     };
     Figure::Intervals {
-        title: format!("{name}: calculated over measured loss of {}", found.mechanism),
+        title: format!("{name}: calculated over measured loss of {}", share(&found.mechanism)),
         x: "ratio".to_owned(),
         marks: vec![1.0],
         key: [

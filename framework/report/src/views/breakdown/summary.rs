@@ -1,11 +1,11 @@
 //! The largest loss and its greatest share, in one sentence.
 
-use gearloss_studies::analyses::breakdown::{As, BreakdownOutcome};
+use gearloss_studies::analyses::breakdown::{As, BreakdownOfSet, BreakdownOutcome};
 use gearloss_studies::analyses::numbers::tidy;
 
 use crate::names::{SetNames, share};
 use crate::page::Page;
-use crate::text::{capitalised, in_brackets, place, short};
+use crate::text::{capitalised, in_brackets, label_of_set, place, short};
 
 /// Shares that are named.
 const NAMED: usize = 3;
@@ -47,11 +47,12 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
         let oil = point.oil_temperature_degc.filter(|_| is_several);
         let oil = oil.map_or_else(String::new, |oil| format!(", oil {} °C", short(oil)));
         let at = place(tidy(point.torque_nm), tidy(point.speed_rpm)) + &oil;
-        let of = if outcome.breakdowns.iter().any(|other| other.gear != of_set.gear) {
-            format!("{} in gear {}", names.quoted(&of_set.model_set), of_set.gear)
+        let gear = if differs(outcome, |breakdown| &breakdown.gear) {
+            format!(" in gear {}", of_set.gear)
         } else {
-            names.quoted(&of_set.model_set)
+            String::new()
         };
+        let of = format!("{}{gear}", names.quoted(&of_set.model_set));
         let percent = |watts: f64| short(if total > 0.0 { 100.0 * watts / total } else { 0.0 });
         words.push(match outcome.unit {
             As::Watts => {
@@ -68,8 +69,13 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
             As::Percent => format!("{largest} with {} % at {at} ({of})", percent(*most)),
         });
         let most = format!("{} {unit}", short(*most));
+        let sets = if differs(outcome, |breakdown| &breakdown.model_set) {
+            2
+        } else {
+            1
+        };
         page.key_figure(
-            &format!("loss, {of}"),
+            &label_of_set(&format!("loss{gear}"), &names.word(&of_set.model_set), sets),
             short(total),
             "W",
             format!("{largest} {most}, at {at}"),
@@ -80,4 +86,12 @@ pub fn add(outcome: &BreakdownOutcome, page: &mut Page) {
         As::Watts => capitalised(&all),
         As::Percent => format!("Largest share: {all}"),
     });
+}
+
+/// Whether the breakdowns differ in something.
+fn differs(outcome: &BreakdownOutcome, read: fn(&BreakdownOfSet) -> &str) -> bool {
+    outcome
+        .breakdowns
+        .windows(2)
+        .any(|pair| read(&pair[0]) != read(&pair[1]))
 }

@@ -76,15 +76,18 @@ fn base(names: &SetNames<'_>, base: &str) -> String {
     }
 }
 
-/// The shares with the largest differences, with these.
-fn leading(shares: &[DifferenceOfShare], count: usize) -> Vec<String> {
+/// The shares with the largest differences, the largest first.
+fn largest(shares: &[DifferenceOfShare]) -> Vec<&DifferenceOfShare> {
     let mut order: Vec<&DifferenceOfShare> = shares.iter().filter(|share| share.difference_w != 0.0).collect();
     order.sort_by(|a, b| b.difference_w.abs().total_cmp(&a.difference_w.abs()));
     let least = order.first().map_or(0.0, |first| SMALL * first.difference_w.abs());
-    let words = order
-        .into_iter()
-        .take(count)
-        .filter(|part| part.difference_w.abs() >= least);
+    order.retain(|part| part.difference_w.abs() >= least);
+    order
+}
+
+/// The same with their differences.
+fn leading(shares: &[DifferenceOfShare], count: usize) -> Vec<String> {
+    let words = largest(shares).into_iter().take(count);
     words
         .map(|part| format!("{} {} W", share(&part.share), signed(part.difference_w)))
         .collect()
@@ -97,28 +100,23 @@ fn on_grid(all: &[GridComparison], (what, unit): (&str, &str), page: &mut Page) 
         let (Some(mean), Some(least), Some(greatest)) = (c.mean, &c.least, &c.greatest) else {
             continue;
         };
-        let largest = if least.difference.abs() > greatest.difference.abs() {
+        let farthest = if least.difference.abs() > greatest.difference.abs() {
             least
         } else {
             greatest
         };
-        let at = place(largest.torque_nm, largest.speed * RPM);
+        let at = place(farthest.torque_nm, farthest.speed * RPM);
         let (set, base) = (names.quoted(&c.model_set), base(&names, &c.base));
         let share = share_of_loss(c, mean, unit);
         let side = if mean < 0.0 { "lower" } else { "higher" };
         // The first difference in full, the others by their mean.
         words.push(if words.is_empty() {
-            let parts = leading(&c.components, if all.len() > 1 { 1 } else { OF_GRID });
-            let parts = if parts.is_empty() {
-                String::new()
-            } else {
-                format!("; loss by component: {} on average", parts.join(", "))
-            };
+            let parts = by_component(&c.components, unit, if all.len() > 1 { 1 } else { OF_GRID });
             format!(
                 "With {set} the {what} is {} {unit}{share} {side} than with {base} on average{}, most at {at} ({}{}){parts}",
                 short(mean.abs()),
                 everywhere(least.difference, greatest.difference),
-                signed(largest.difference),
+                signed(farthest.difference),
                 again(unit)
             )
         } else {
@@ -128,13 +126,32 @@ fn on_grid(all: &[GridComparison], (what, unit): (&str, &str), page: &mut Page) 
             &format!("{what}: {} minus {}", names.word(&c.model_set), names.word(&c.base)),
             signed(mean),
             unit,
-            format!("mean{share}; {}{} at {at}", signed(largest.difference), again(unit)),
+            format!("mean{share}; {}{} at {at}", signed(farthest.difference), again(unit)),
         );
     }
-    if let [only] = all {
+    if let [only] = all
+        && !(unit == "W" && only_component(&only.components).is_some())
+    {
         tiles_of_components(only, &names, page);
     }
     (!words.is_empty()).then(|| words.join("; "))
+}
+
+/// The component that alone differs.
+fn only_component(components: &[DifferenceOfShare]) -> Option<&DifferenceOfShare> {
+    let mut different = components.iter().filter(|part| part.difference_w != 0.0);
+    different.next().filter(|_| different.next().is_none())
+}
+
+/// The components with the largest differences, as the end of a sentence.
+fn by_component(components: &[DifferenceOfShare], unit: &str, count: usize) -> String {
+    match only_component(components) {
+        Some(only) if unit == "W" => format!("; all of it in {}", share(&only.share)),
+        _ => match leading(components, count).join(", ") {
+            parts if parts.is_empty() => parts,
+            parts => format!("; loss by component: {parts} on average"),
+        },
+    }
 }
 
 /// A mean difference of the loss as a share of the mean loss of the base.
@@ -149,9 +166,7 @@ fn share_of_loss(c: &GridComparison, mean: f64, unit: &str) -> String {
 
 /// The components that contribute most to the difference.
 fn tiles_of_components(c: &GridComparison, names: &SetNames<'_>, page: &mut Page) {
-    let mut order: Vec<&DifferenceOfShare> = c.components.iter().collect();
-    order.sort_by(|a, b| b.difference_w.abs().total_cmp(&a.difference_w.abs()));
-    for part in order.into_iter().filter(|part| part.difference_w != 0.0).take(TILES) {
+    for part in largest(&c.components).into_iter().take(TILES) {
         let detail = format!(
             "mean; {} {} W, {} {} W",
             names.word(&c.base),

@@ -1,37 +1,48 @@
-//! The largest values along the path in one sentence.
+//! The largest values along the paths in one sentence.
 
-use gearloss_studies::analyses::contact_path::{ContactPathOutcome, PlaceOnPath};
+use gearloss_studies::analyses::contact_path::{ContactPath, ContactPathOutcome, PlaceOnPath};
 
 use crate::page::Page;
-use crate::text::{extremes, range, short};
+use crate::text::{extremes, label_of_set, of_set, range, short};
 
 pub fn add(outcome: &ContactPathOutcome, page: &mut Page) {
-    let Some(path) = outcome.paths.first() else { return };
-    let of = |value: fn(&PlaceOnPath) -> Option<f64>| {
-        extremes(path.places.iter().filter_map(move |place| Some((value(place)?, place))))
-    };
-    let mut words = Vec::new();
-    if let Some([_, high]) = of(|place| Some(place.hertz_pressure_gpa)) {
-        words.push(format!("Hertzian pressure up to {} GPa", short(high.0)));
-        page.key_figure("largest Hertzian pressure", short(high.0), "GPa", path.mesh.as_str());
+    let sets = outcome.paths.len();
+    let mut sentences = Vec::new();
+    for path in &outcome.paths {
+        let set = &path.model_set;
+        let mut words = Vec::new();
+        if let Some([_, high]) = ends(path, |place| Some(place.hertz_pressure_gpa)) {
+            words.push(format!("Hertzian pressure up to {} GPa", short(high)));
+            let label = label_of_set("largest Hertzian pressure", set, sets);
+            page.key_figure(&label, short(high), "GPa", "");
+        }
+        if let Some([low, high]) = ends(path, |place| place.mu) {
+            words.push(format!("coefficient of friction {}", range(low, high, 3)));
+            let label = label_of_set("largest coefficient of friction", set, sets);
+            page.key_figure(&label, short(high), "", "");
+        }
+        if let Some([low, _]) = ends(path, |place| Some(place.film_um)) {
+            words.push(format!("film at least {} µm", short(low)));
+            page.key_figure(&label_of_set("thinnest film", set, sets), short(low), "µm", "");
+        }
+        if let Some(why) = &path.no_friction {
+            let path = label_of_set(&format!("no friction along the path of {}", path.mesh), set, sets);
+            page.careful.push(format!("{path}: {why}"));
+        }
+        if !words.is_empty() {
+            let subject = if sentences.is_empty() {
+                format!("Mesh {} {}", path.mesh, of_set(set, sets))
+            } else {
+                of_set(set, sets)
+            };
+            sentences.push(format!("{}: {}", subject.trim_end(), words.join(", ")));
+        }
     }
-    if let Some([low, high]) = of(|place| place.mu) {
-        words.push(format!("coefficient of friction {}", range(low.0, high.0, 3)));
-        page.key_figure(
-            "largest coefficient of friction",
-            short(high.0),
-            "",
-            path.model_set.as_str(),
-        );
-    }
-    if let Some([low, _]) = of(|place| Some(place.film_um)) {
-        words.push(format!("film at least {} µm", short(low.0)));
-        page.key_figure("thinnest film", short(low.0), "µm", path.mesh.as_str());
-    }
-    if let Some(why) = &path.no_friction {
-        page.careful
-            .push(format!("no friction along the path of {}: {why}", path.mesh));
-    }
-    page.headline =
-        (!words.is_empty()).then(|| format!("Mesh {} with `{}`: {}", path.mesh, path.model_set, words.join(", ")));
+    page.headline = (!sentences.is_empty()).then(|| sentences.join("; "));
+}
+
+/// The least and the largest value along a path.
+fn ends(path: &ContactPath, value: fn(&PlaceOnPath) -> Option<f64>) -> Option<[f64; 2]> {
+    let values = path.places.iter().filter_map(|place| Some((value(place)?, ())));
+    extremes(values).map(|ends| ends.map(|(value, ())| value))
 }

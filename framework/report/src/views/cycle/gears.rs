@@ -2,6 +2,7 @@
 
 use gearloss_studies::analyses::cycle::{Criterion, DutyOfSet, GearsOfDuty};
 
+use crate::names::cycle;
 use crate::page::Page;
 use crate::text::{TextTable, short, significant};
 
@@ -47,7 +48,9 @@ pub fn text(duty: &DutyOfSet, page: &mut Page) {
     if gears.intervals_beyond_limits > 0 {
         page.careful.push(format!(
             "{}: every gear is beyond a limit of speed or torque in {} of {} intervals; that with the smallest excess is used",
-            duty.cycle, gears.intervals_beyond_limits, duty.intervals
+            cycle(&duty.cycle),
+            gears.intervals_beyond_limits,
+            duty.intervals
         ));
     }
 }

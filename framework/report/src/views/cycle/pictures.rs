@@ -7,7 +7,7 @@ use crate::names::cycle as words;
 use crate::page::Page;
 use crate::picture::{Pane, Panes, Screen};
 use crate::plot::{Bar, Line, Stroke};
-use crate::text::{extremes, short};
+use crate::text::{extremes, short, words_of_set};
 use crate::{Cloud, Figure};
 
 /// Cells of speed and of torque: as many as squares of a readable size fill the picture.
@@ -83,7 +83,7 @@ impl Cells {
     fn lost(&self, duty: &DutyOfSet) -> Cloud {
         let all: f64 = self.energies.iter().map(|[.., lost]| lost).sum();
         let share = |[.., lost]: &[f64; 3]| Some(100.0 * lost / all).filter(|share| *share >= LEAST);
-        let title = format!("Where {} loses its energy with {}, in %", duty.cycle, duty.model_set);
+        let title = format!("Where {} loses its energy, in %", of_duty(duty));
         self.cloud(title, share)
     }
 
@@ -97,7 +97,7 @@ impl Cells {
         let shown = self.energies.iter().filter(|energies| efficiency(energies).is_some());
         let shares: Vec<f64> = shown.map(|[input, ..]| *input).collect();
         let largest = shares.iter().copied().fold(0.0, f64::max);
-        let title = format!("Efficiency over {} with {}, area by energy", duty.cycle, duty.model_set);
+        let title = format!("Efficiency over {}, area by energy", of_duty(duty));
         Cloud {
             sizes: shares.iter().map(|joule| joule / largest).collect(),
             sized: format!("area: input energy, largest {} %", short(100.0 * largest / all)),
@@ -194,8 +194,13 @@ fn over_time(duty: &DutyOfSet) -> Panes {
         });
     }
     Panes {
-        title: format!("{} with {}, over time", duty.cycle, duty.model_set),
+        title: format!("{}, over time", of_duty(duty)),
         x: "time in s".to_owned(),
         panes,
     }
+}
+
+/// The cycle and the model set of a picture.
+fn of_duty(duty: &DutyOfSet) -> String {
+    format!("{} with {}", words(&duty.cycle), words_of_set(&duty.model_set))
 }

@@ -4,7 +4,7 @@ use gearloss_studies::analyses::cycle::{CycleOutcome, DutyOfSet};
 
 use crate::names::{SetNames, cycle, share};
 use crate::page::Page;
-use crate::text::short;
+use crate::text::{figures, in_brackets, short};
 
 pub fn add(outcome: &CycleOutcome, page: &mut Page) {
     let mut words = Vec::new();
@@ -35,6 +35,10 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             details.push(format!("{} % {name}", short(percent)));
         }
         words_of_set.push_str(&against_reference(duty));
+        if let (Some(band), None) = (&duty.bands, &duty.reference) {
+            let [low, _, high] = band.mean_loss_w.map(short);
+            words_of_set.push_str(&format!(" (95 %: {low} to {high} W)"));
+        }
         if let Some(reference) = &duty.reference {
             let source = reference.source.as_deref().unwrap_or("reference");
             details.push(format!("{} W: {source}", short(reference.mean_loss_w)));
@@ -49,19 +53,16 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             }
         }
         if let Some(consumption) = &duty.consumption {
-            words_of_set.push_str(&format!(
-                "; consumption {} kWh/100 km",
-                short(consumption.consumption_kwh_per_100_km)
-            ));
-            if let Some(range) = consumption.range_km {
-                let lost = consumption.range_lost_in_transmission_km.map(short);
-                page.key_figure(
-                    &format!("range, {of}"),
-                    short(range),
-                    "km",
-                    lost.map_or_else(String::new, |km| format!("{km} km lost in the transmission")),
-                );
-            }
+            let value = figures(consumption.consumption_kwh_per_100_km, 4);
+            let band = duty.bands.as_ref().and_then(|band| band.consumption_kwh_per_100_km);
+            let band = band.map(|[low, _, high]| format!("95 %: {} to {}", figures(low, 4), figures(high, 4)));
+            let in_band = in_brackets(band.as_deref().unwrap_or_default());
+            words_of_set.push_str(&format!("; consumption {value} kWh/100 km{in_band}"));
+            let range = consumption.range_km.map(|km| format!("range {} km", short(km)));
+            let lost = consumption.range_lost_in_transmission_km;
+            let lost = lost.map(|km| format!("{} km lost in the transmission", short(km)));
+            let details: Vec<String> = [band, range, lost].into_iter().flatten().collect();
+            page.key_figure(&format!("consumption, {of}"), value, "kWh/100 km", details.join("; "));
         }
         if let (Some(gears), Some(shares)) = (&duty.gears_used, super::gears::words(duty)) {
             let shifts = gears.shifts.map_or_else(|| "-".to_owned(), |shifts| shifts.to_string());
@@ -78,14 +79,15 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             page.careful
                 .push(format!("{of} ends at {} s: {}", short(broken.time_s), broken.reason));
         }
-        let lacking = duty.consumption.map_or(0.0, |consumption| {
-            consumption.lacking_kwh_per_100_km + consumption.shortfall_kwh_per_100_km
-        });
-        if lacking > 0.0 {
-            page.careful.push(format!(
-                "{of}: the vehicle cannot follow the cycle and lacks {} kWh/100 km, so its consumption is not comparable",
-                short(lacking)
-            ));
+        if let Some(consumption) = &duty.consumption {
+            let lacking = consumption.lacking_kwh_per_100_km + consumption.shortfall_kwh_per_100_km;
+            if lacking > 0.0 {
+                page.careful.push(format!(
+                    "{of}: the vehicle cannot follow the cycle; {} kWh/100 km that it lacks are not in its consumption of {}",
+                    short(lacking),
+                    figures(consumption.consumption_kwh_per_100_km, 4)
+                ));
+            }
         }
         let cautions = duty
             .machines

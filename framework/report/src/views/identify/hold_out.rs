@@ -124,7 +124,7 @@ pub(super) fn pictures(name: &str, o: &IdentificationOfSet) -> Vec<(String, Figu
                     "{name}: errors of the {what} over {axis}, {}, fitted and held-out rows",
                     o.model_set
                 ),
-                x: format!("{axis} {axis_unit}"),
+                x: format!("{axis} in {axis_unit}"),
                 y: format!("calculated minus measured, {unit}"),
                 lines: vec![dotted("fitted", dots(false)), dotted("held out", dots(true))],
             };

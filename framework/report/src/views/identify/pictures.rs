@@ -160,7 +160,7 @@ fn residuals(name: &str, o: &IdentificationOfSet) -> Vec<(&'static str, Figure)>
         let mean = means.iter().map(|b| Some((0.5 * (b.band[0] + b.band[1]), b.mean)));
         Figure::Lines {
             title: format!("{name}: residuals of {} over {what}", o.model_set),
-            x: format!("{what} {unit}"),
+            x: format!("{what} in {unit}"),
             y: "residual, standard deviations".to_owned(),
             lines: vec![
                 Line {

@@ -3,11 +3,14 @@
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownPoint};
 use gearloss_studies::analyses::numbers::RPM;
 
-use crate::names::SetNames;
+use crate::names::{SetNames, listed};
 use crate::page::Page;
-use crate::text::{capitalised, extremes, place, range};
+use crate::text::{capitalised, extremes, place, range, short};
 
 type Found<'a> = (&'a MapOfSet, &'a ShownPoint);
+
+/// Gears that are named.
+const GEARS: usize = 3;
 
 pub fn add(outcome: &MapOutcome, page: &mut Page) {
     let points = || {
@@ -43,7 +46,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             at(high.1)
         ));
         page.key_figure(
-            "efficiency",
+            &format!("efficiency{}", outcome.of.words()),
             range(low.0, high.0, 1),
             "%",
             format!("highest at {}", at(high.1)),
@@ -56,7 +59,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             range(low.0, high.0, 0)
         ));
         page.key_figure(
-            "loss",
+            &format!("loss{}", outcome.of.words()),
             range(low.0, high.0, 0),
             "W",
             format!("largest at {}", at(high.1)),
@@ -81,9 +84,40 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             "{missing} points of the maps have no power flow or no defined loss"
         ));
     }
+    words.extend(standstill(outcome));
+    words.extend(outcome.maps.iter().find_map(best_gears));
     let count = match sets.len() {
         1 => String::new(),
         sets => format!("With {sets} model sets "),
     };
     page.headline = (!words.is_empty()).then(|| capitalised(&format!("{count}{}", words.join("; "))));
+}
+
+/// The speed up to which no point has a power flow, while all faster ones have: a drive that locks itself.
+fn standstill(outcome: &MapOutcome) -> Option<String> {
+    let points = || outcome.maps.iter().flat_map(|map| &map.shown.points);
+    let speeds = |moves: bool| {
+        points()
+            .filter(move |point| point.loss.is_some() == moves)
+            .map(|point| point.speed.abs())
+    };
+    let fastest = speeds(false).reduce(f64::max)?;
+    let slowest = speeds(true).reduce(f64::min)?;
+    (fastest < slowest).then(|| {
+        format!(
+            "up to {} rpm no point has a power flow, from {} rpm on every point",
+            short(fastest * RPM),
+            short(slowest * RPM)
+        )
+    })
+}
+
+/// The gears that are best at most points.
+fn best_gears(map: &MapOfSet) -> Option<String> {
+    let mut gears: Vec<_> = map.best_gears.as_ref()?.gears.iter().collect();
+    gears.sort_by(|a, b| b.points.cmp(&a.points));
+    let used = gears.iter().filter(|gear| gear.points > 0).take(GEARS);
+    let words = used.map(|gear| format!("{} at {} %", gear.gear, short(100.0 * gear.share)));
+    let words = listed(&words.collect::<Vec<_>>());
+    Some(format!("the gear that draws least is {words} of the points"))
 }

@@ -16,9 +16,14 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
             extremes(points.iter().filter_map(move |point| Some((value(point)?, point))))
         };
         let label = |name: &str| label_of_set(name, set, outcome.operating_points.len());
-        let at = |point: &OperatingPoint| {
+        let is_one = points.len() == 1;
+        let at = |which: &str, point: &OperatingPoint| {
             let at = place(tidy(point.torque_nm), point.speed_rpm);
-            format!("point {}: {at}", point.name)
+            if is_one {
+                format!("at {at}")
+            } else {
+                format!("{which} at point {}: {at}", point.name)
+            }
         };
         let mut found = Vec::new();
         if let Some([low, high]) = ends(|point| point.loss_w) {
@@ -28,15 +33,15 @@ pub fn add(outcome: &OperatingPointsOutcome, page: &mut Page) {
                 .as_deref()
                 .map(|losses| leading(&points_of_set.shares, losses));
             let parts = parts.filter(|parts| !parts.is_empty());
-            let parts = parts.map_or_else(String::new, |parts| format!(" (at the highest loss: {parts})"));
+            let which = if is_one { "" } else { "at the highest loss: " };
+            let parts = parts.map_or_else(String::new, |parts| format!(" ({which}{parts})"));
             found.push(format!("loss {} W{parts}", range(low.0, high.0, 1)));
-            let detail = format!("largest at {}", at(high.1));
-            page.key_figure(&label("loss"), range(low.0, high.0, 1), "W", detail);
+            page.key_figure(&label("loss"), range(low.0, high.0, 1), "W", at("largest", high.1));
         }
         if let Some([low, high]) = ends(|point| point.oil_temperature_degc) {
             found.push(format!("oil {} °C", range(low.0, high.0, 1)));
-            let detail = format!("highest at {}", at(high.1));
-            page.key_figure(&label("oil temperature"), range(low.0, high.0, 1), "°C", detail);
+            let value = range(low.0, high.0, 1);
+            page.key_figure(&label("oil temperature"), value, "°C", at("highest", high.1));
         }
         let deviation = |point: &OperatingPoint| {
             let (loss, seen) = (point.loss_w?, point.measured.loss_w?);

@@ -3,7 +3,7 @@
 use gearloss_studies::analyses::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
-use crate::names::{listed, quantity};
+use crate::names::{listed, of_component, quantity};
 use crate::page::Page;
 use crate::text::{extremes, label_of_set, of_set, short, with_printed_units};
 
@@ -73,18 +73,23 @@ fn cards(
     page: &mut Page,
 ) {
     let label = |name: &str| label_of_set(name, set, outcome.notes.len());
+    let at = format!("at {at}");
     let detail = if low < high {
         format!("{at}; {} W at {at_high}", short(high))
     } else {
-        at.to_owned()
+        at.clone()
     };
     page.key_figure(&label("lowest mean loss"), short(low), "W", detail);
     let largest = |read: &dyn Fn(&PointOfSweep) -> Option<f64>, sign: f64| {
         let values = best.points.iter().filter_map(read);
         values.max_by(|a, b| (sign * a).total_cmp(&(sign * b)))
     };
-    if let Some(oil) = largest(&|point| point.oil_temperature_degc, 1.0) {
-        page.key_figure(&label("oil temperature"), short(oil), "°C", at);
+    let oils = outcome.sweep.iter().flat_map(|value| &value.points);
+    let oils = extremes(oils.filter_map(|point| Some((point.oil_temperature_degc?, ()))));
+    // A given temperature is no result.
+    let is_result = oils.is_some_and(|[low, high]| low.0 < high.0);
+    if let (true, Some(oil)) = (is_result, largest(&|point| point.oil_temperature_degc, 1.0)) {
+        page.key_figure(&label("oil temperature"), short(oil), "°C", at.as_str());
     }
     for column in &outcome.limits {
         let limits = &outcome.head.study_limits;
@@ -95,7 +100,7 @@ fn cards(
         let value = largest(&|point| point.limit_values.get(&column.name).copied().flatten(), sign);
         if let Some(value) = value.filter(|_| !column.is_of_oil) {
             let unit = if column.unit == "-" { "" } else { column.unit };
-            page.key_figure(&label(&column.words), short(value), unit, at);
+            page.key_figure(&label(&of_component(&column.words)), short(value), unit, at.as_str());
         }
     }
 }

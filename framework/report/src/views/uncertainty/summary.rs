@@ -5,11 +5,12 @@ use gearloss_studies::analyses::uncertainty::{PointOfBand, UncertaintyOutcome};
 
 use crate::names::quantity;
 use crate::page::Page;
-use crate::text::{extremes, of_set, place, range, short};
+use crate::text::{extremes, label_of_set, of_set, place, range, short};
 
 pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
     let mut words = Vec::new();
     for set in &outcome.bands {
+        let label = |name: &str| label_of_set(name, &set.model_set, outcome.bands.len());
         let half = |value: fn(&PointOfBand) -> Option<f64>| {
             extremes(set.points.iter().filter_map(move |point| Some((value(point)?, point))))
         };
@@ -22,7 +23,7 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
                 at(high.1)
             ));
             page.key_figure(
-                "widest band of the efficiency",
+                &label("widest band of the efficiency"),
                 format!("±{}", short(high.0)),
                 "points",
                 at(high.1),
@@ -31,25 +32,27 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
         if let Some([low, high]) = half(|point| point.loss_w.half_width()) {
             found.push(format!("the loss is known to ±{} W", range(low.0, high.0, 1)));
             page.key_figure(
-                "widest band of the loss",
+                &label("widest band of the loss"),
                 format!("±{}", short(high.0)),
                 "W",
                 at(high.1),
             );
         }
-        if let Some((input, strength)) = set
-            .inputs
-            .first()
-            .and_then(|i| Some((i, i.correlation_with_mean_loss?)))
-        {
-            let name = quantity(&input.path);
-            found.push(format!("the {name} contributes most"));
-            page.key_figure(
-                "strongest input",
-                name.as_str(),
-                "",
-                format!("correlation {} with the mean loss", short(strength)),
-            );
+        let strongest = set.inputs.first();
+        if let Some((input, strength)) = strongest.and_then(|i| Some((i, i.correlation_with_mean_loss?))) {
+            // Samples of independent quantities correlate within this with 95 % confidence.
+            let chance = 2.0 / (set.samples as f64).sqrt();
+            if strength.abs() > chance {
+                let name = quantity(&input.path);
+                found.push(format!("the {name} contributes most"));
+                let detail = format!("correlation {} with the mean loss", short(strength));
+                page.key_figure(&label("strongest input"), name.as_str(), "", detail);
+            } else {
+                found.push(format!(
+                    "no input correlates with the mean loss by more than chance ({})",
+                    short(chance)
+                ));
+            }
         }
         if set.failed > 0 {
             page.careful

@@ -9,9 +9,9 @@ pub fn add(outcome: &ValidationOutcome, page: &mut Page) {
     let found = &outcome.validation;
     let Some(best) = found.models.first() else { return };
     page.headline = Some(format!(
-        "Of {} models of {}, `{}` is closest to the data: {} times their losses ({} to {}) at {} points",
+        "Of {} {} models, `{}` is closest to the data: {} times their losses ({} to {}) at {} points",
         found.models.len(),
-        found.mechanism,
+        found.mechanism.replace('_', " "),
         best.name,
         ratio_text(best.all.ratio),
         ratio_text(best.all.least),
