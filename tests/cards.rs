@@ -1,26 +1,10 @@
 //! What is shown of a gearbox before and beside its losses: stages, ratios, static safety; and gearboxes of pitch circles alone.
 
-use crate::common::{self, RPM};
-use assert_cmd::Command;
-use gearloss_framework::evaluate::{Point, PowerFlow};
+use crate::common::{self, RPM, program::out};
+use gearloss_framework::evaluate::Point;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::resolve::Choice;
 use serde_json::Value;
-
-fn out(args: &[&str]) -> String {
-    let output = Command::cargo_bin("gearloss")
-        .unwrap()
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(args)
-        .output()
-        .unwrap();
-    assert!(
-        output.status.success(),
-        "{args:?}: {}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    String::from_utf8(output.stdout).unwrap()
-}
 
 const UNIT: &str = "examples/electric-drive-unit/gearbox.yaml";
 const TWO_SPEED: &str = "examples/two-speed-ev/gearbox.yaml";
@@ -118,7 +102,6 @@ fn a_set_of_pitch_circles_has_its_ratio_and_efficiency() {
         let point = Point {
             speeds: &[3000.0 * RPM],
             torques: &[60.0],
-            flow: PowerFlow::Real,
             ..Point::default()
         };
         let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);

@@ -4,8 +4,7 @@
 use std::fmt::Write as _;
 
 use crate::common::{self, RPM};
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Point;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Files;
 use gearloss_framework::resolve::Choice;
@@ -31,9 +30,7 @@ fn part_loss(
     let point = Point {
         speeds: &[speed * RPM],
         torques: &[torque],
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[100.0], &mut scratch);
     let (_, loss) = solution.parts().find(|(p, _)| p.path == part).unwrap();

@@ -10,8 +10,7 @@ mod long;
 mod plate;
 
 use crate::common::{RPM, contact_work, file, language, two_speed, two_speed_with};
-use gearloss_framework::evaluate::{Point, PowerFlow, Scratch};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::{Point, Scratch};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::real::LANES;
 use gearloss_framework::resolve::Choice;
@@ -31,9 +30,7 @@ fn point<'a>(speeds: &'a [f64], torques: &'a [f64]) -> Point<'a> {
     Point {
         speeds,
         torques,
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     }
 }
 

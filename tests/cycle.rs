@@ -6,7 +6,6 @@ use std::process::Command;
 use crate::common::{self, contact_work, file, language};
 use gearloss_framework::contact::path::Path as ContactPath;
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
@@ -261,9 +260,7 @@ fn work(t: &Transmission, laws: &[(EhlMixed, ContactPath)], s: &Stretch) -> Vec<
     let point = Point {
         speeds: &[s.speed],
         torques: &[s.torque],
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &s.temperatures, &mut scratch);
     contact_work::work(laws, &solution)

@@ -128,7 +128,7 @@ fn three_intervals_have_the_energies_of_the_hand_calculation() {
 }
 
 /// W over 10 s on 200 m, in kWh/100 km.
-fn per_distance(watts: f64) -> f64 {
+pub fn per_distance(watts: f64) -> f64 {
     watts * 10.0 / 200.0 / 36.0
 }
 

@@ -2,8 +2,7 @@
 
 use crate::common::{RPM, file, language, two_speed_with};
 use gearloss_framework::description::LubricantEntry;
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Point;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::lubricant::Lubricant;
@@ -29,9 +28,7 @@ fn meshes(t: &Transmission, torque: f64, rpm: f64, oil: f64) -> f64 {
     let point = Point {
         speeds: &[rpm * RPM],
         torques: &[torque],
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[oil], &mut scratch);
     assert!(solution.is_complete());

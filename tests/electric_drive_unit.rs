@@ -5,7 +5,6 @@
 
 use crate::common::{RPM, file, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::geometry::Pair;
 use gearloss_framework::language::Language;
@@ -77,8 +76,7 @@ fn ask(t: &Transmission, torque: f64, rpm: f64) -> Asked {
         speeds: &[rpm * RPM],
         torques: &[torque],
         flow: PowerFlow::Ideal,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[40.0], &mut scratch);
     assert!(solution.is_complete());
@@ -333,9 +331,7 @@ fn the_thermal_network_of_the_example_comes_to_rest_at_sensible_temperatures() {
         let point = Point {
             speeds: &[rpm * RPM],
             torques: &[torque(power, rpm)],
-            flow: PowerFlow::Real,
-            tolerance: Tolerance::default(),
-            inclination: 0.0,
+            ..Point::default()
         };
         let moment = Moment {
             case: &case,

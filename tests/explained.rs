@@ -2,8 +2,7 @@
 //! solution, to the last bit.
 
 use crate::common::{self, RPM};
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Point;
 use gearloss_framework::resolve::Choice;
 
 /// Mechanism, part and slot, and another slot that would count a cause twice.
@@ -59,9 +58,7 @@ fn every_model_explains_the_number_of_the_solution() {
             let point = Point {
                 speeds: &[9000.0 * RPM],
                 torques: &[12.0],
-                flow: PowerFlow::Real,
-                tolerance: Tolerance::default(),
-                inclination: 0.0,
+                ..Point::default()
             };
             let solution = t.evaluate(&case, &point, &[90.0], &mut scratch);
             let Some(part) = t.parts().iter().position(|p| p.path == path) else {

@@ -1,9 +1,9 @@
 //! What is read and written: regular files only and no longer than stated; one run at a time in a folder; names that every system has.
 
-use crate::common;
+use crate::common::{self, program::gearloss_in as gearloss};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
 const STUDY: &str = "gearloss: study/1
 gearboxes: { ours: gearbox.yaml }
@@ -19,11 +19,6 @@ fn folder(name: &str) -> PathBuf {
     fs::copy(common::file("tests/cases/fine/input.yaml"), folder.join("gearbox.yaml")).unwrap();
     fs::write(folder.join("study.yaml"), STUDY).unwrap();
     folder
-}
-
-fn gearloss(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_gearloss"));
-    command.current_dir(folder).args(arguments).output().unwrap()
 }
 
 fn text(bytes: &[u8]) -> String {

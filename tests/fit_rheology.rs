@@ -1,9 +1,11 @@
 //! `fit traction` and `fit stribeck`: the rheology of an oil from curves.
 
-use crate::common;
+use crate::common::{
+    self,
+    program::{gearloss, out},
+};
 use std::path::PathBuf;
 
-use assert_cmd::Command;
 use gearloss_framework::description::LubricantEntry;
 use gearloss_framework::description::lubricant::{DensityEntry, DensityLaw, ViscosityEntry};
 use gearloss_framework::lubricant::Lubricant;
@@ -15,22 +17,6 @@ const TRACTION: &str = "examples/electric-drive-unit/traction.csv";
 const STRIBECK: &str = "examples/electric-drive-unit/stribeck.csv";
 const OIL: &str = "{ viscosity: { kv40: 27.3 mm2/s, kv100: 5.9 mm2/s }, \
 density: { value: 839 kg/m3, at: 20 degC, expansion: 7.7473e-4 1/K } }";
-
-fn gearloss(args: &[&str]) -> std::process::Output {
-    Command::cargo_bin("gearloss")
-        .unwrap()
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(args)
-        .output()
-        .unwrap()
-}
-
-fn out(args: &[&str]) -> String {
-    let output = gearloss(args);
-    let error = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{args:?}: {error}");
-    String::from_utf8(output.stdout).unwrap()
-}
 
 /// What a file is refused with.
 fn refused(args: &[&str]) -> String {

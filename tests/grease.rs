@@ -3,7 +3,6 @@
 use crate::common::{RPM, language};
 use gearloss_framework::codes;
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::testing::assert_close;
@@ -50,8 +49,7 @@ fn watts(t: &Transmission, part: &str) -> f64 {
         speeds: &[500.0 * RPM],
         torques: &[4.0],
         flow: PowerFlow::Ideal,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[25.0], &mut scratch);
     let number = t.parts().iter().position(|p| p.path == part).unwrap();

@@ -10,7 +10,6 @@ use crate::common::study::{Ran, run_texts};
 use crate::common::{RPM, language};
 use gearloss::api::InMemory;
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
@@ -90,9 +89,7 @@ fn points(language: &Language, gearbox: &Gearbox, overrides: &[(&str, Value)]) -
             let point = Point {
                 speeds: &[speed * RPM],
                 torques: &[torque],
-                flow: PowerFlow::Real,
-                tolerance: Tolerance::default(),
-                inclination: 0.0,
+                ..Point::default()
             };
             let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
             all.push([torque, speed, solution.loss().unwrap()]);

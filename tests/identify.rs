@@ -5,8 +5,7 @@ use std::fmt::Write as _;
 use crate::common::rig::{SEED, TRUTH};
 use crate::common::study::{Ran, of_gearbox, run_texts};
 use crate::common::{self, RPM, language};
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Point;
 use gearloss_framework::resolve::Choice;
 use gearloss_numerics::inference::Standing;
 use gearloss_numerics::inference::probability::chi_square_quantile;
@@ -53,9 +52,7 @@ fn points(overrides: &[(&str, Value)], torques: &[f64], speeds: &[f64]) -> Vec<[
             let point = Point {
                 speeds: &[speed * RPM],
                 torques: &[*torque],
-                flow: PowerFlow::Real,
-                tolerance: Tolerance::default(),
-                inclination: 0.0,
+                ..Point::default()
             };
             let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
             let turning = solution.speed(t.ports()[out].member) / RPM;

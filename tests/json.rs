@@ -1,17 +1,8 @@
 //! What `check` and `models` tell programs: the published schemas hold, and every finding has its code, place and help.
 
-use crate::common;
-use std::process::{Command, Output};
+use crate::common::{self, program::gearloss};
 
 use serde_json::Value;
-
-fn gearloss(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_gearloss"))
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(args)
-        .output()
-        .unwrap()
-}
 
 /// JSON output of a command, checked against its schema, with its exit code.
 fn run_json(kind: &str, args: &[&str]) -> (Value, i32) {

@@ -1,8 +1,7 @@
 //! A planetary differential whose wheels turn nearly alike: what its friction takes goes over continuously into that of equal speeds.
 
 use crate::common::{RPM, language};
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Point;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::real::LANES;
 use gearloss_framework::resolve::Choice;
@@ -50,9 +49,7 @@ fn split(t: &Transmission, apart: f64) -> f64 {
     let point = Point {
         speeds: &speeds,
         torques: &[400.0],
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     assert!(solution.residual().unwrap().abs() <= 1e-12 * solution.largest_power());

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::common::study::{Ran, number, run_texts};
-use crate::drive_unit::STAGE;
+use crate::drive_unit::{STAGE, per_distance};
 
 const CYCLE: &str = "time [s],vehicle_speed [m/s]\n0,0\n10,10\n20,10\n30,0\n";
 
@@ -135,11 +135,6 @@ fn machine_inverter_and_battery_have_the_energies_of_the_hand_calculation() {
         assert!(number(&consumption["residual_share"]) < 1e-9);
         assert!(number(&consumption["interval_residual_share"]) < 1e-9);
     }
-}
-
-/// W over 10 s on 200 m, in kWh/100 km.
-fn per_distance(watts: f64) -> f64 {
-    watts * 10.0 / 200.0 / 36.0
 }
 
 #[test]

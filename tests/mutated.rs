@@ -4,8 +4,7 @@ use crate::common;
 use std::sync::LazyLock;
 
 use gearloss_framework::document::read_yaml;
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Point;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
@@ -54,9 +53,7 @@ fn try_all(text: &str) {
         let point = Point {
             speeds: &speeds,
             torques: &torques,
-            flow: PowerFlow::Real,
-            tolerance: Tolerance::default(),
-            inclination: 0.0,
+            ..Point::default()
         };
         let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
         for value in [solution.loss(), solution.efficiency(), solution.loss_torque()]

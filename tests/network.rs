@@ -1,8 +1,7 @@
 //! Thermal networks that are laid out from a description: heat counted once, temperatures of a sensible size, paths to every number.
 
 use crate::common::{self, RPM};
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Point;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::{NetworkRecipe, Registry};
@@ -111,9 +110,7 @@ impl Drive {
         let point = Point {
             speeds: &speeds,
             torques: &torques,
-            flow: PowerFlow::Real,
-            tolerance: Tolerance::default(),
-            inclination: 0.0,
+            ..Point::default()
         };
         let around = Surroundings::default();
         act(&Moment {

@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::common::language;
-use assert_cmd::Command;
+use crate::common::{language, program::gearloss_in as gearloss};
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::{Kind, Language};
 use gearloss_framework::resolve::Choice;
@@ -49,15 +48,6 @@ const CROSSED: [(&str, &[&str], [f64; 2]); 3] = [
     ("worm", &["--torque", "18 Nm", "--speed", "1500 rpm"], [82.0, 90.0]),
     ("axle", &["--torque", "150 Nm", "--speed", "1500 rpm"], [95.0, 98.0]),
 ];
-
-fn gearloss(folder: &Path, args: &[&str]) -> std::process::Output {
-    Command::cargo_bin("gearloss")
-        .unwrap()
-        .current_dir(folder)
-        .args(args)
-        .output()
-        .unwrap()
-}
 
 fn out(folder: &Path, args: &[&str]) -> String {
     let output = gearloss(folder, args);
@@ -137,22 +127,26 @@ fn efficiency(folder: &Path, point: &[&str], more: &[&str]) -> f64 {
     100.0 * solved["efficiency"].as_f64().unwrap()
 }
 
+/// Writes the gearbox of a layout, which is fine; what is proposed is what is tested.
+fn create(folder: &Path, layout: &str, point: &[&str]) {
+    let told = out(folder, &["new", "gearbox", layout]);
+    let proposed = told.lines().find(|line| line.contains("gearloss solve")).unwrap();
+    assert_eq!(
+        proposed.replace('"', "").trim(),
+        format!("gearloss solve gearbox.yaml {}", point.join(" "))
+    );
+    let checked = out(folder, &["check", "gearbox.yaml"]);
+    assert!(
+        checked.starts_with("gearbox.yaml: fine") && !checked.contains("warning"),
+        "{checked}"
+    );
+}
+
 #[test]
 fn every_layout_checks_and_loses_what_such_gearboxes_lose() {
     for (layout, point, [least, greatest]) in LAYOUTS {
         let folder = folder(&format!("checks-{layout}"));
-        let told = out(&folder, &["new", "gearbox", layout]);
-        let proposed = told.lines().find(|line| line.contains("gearloss solve")).unwrap();
-        // What is proposed is what is tested.
-        assert_eq!(
-            proposed.replace('"', "").trim(),
-            format!("gearloss solve gearbox.yaml {}", point.join(" "))
-        );
-        let checked = out(&folder, &["check", "gearbox.yaml"]);
-        assert!(
-            checked.starts_with("gearbox.yaml: fine") && !checked.contains("warning"),
-            "{checked}"
-        );
+        create(&folder, layout, point);
         for set in [&[][..], &["--models", "iso14179_2"], &["--models", "joint"]] {
             let found = efficiency(&folder, point, set);
             assert!(found > least && found < greatest, "{layout} {set:?}: {found}");
@@ -165,17 +159,7 @@ fn every_layout_checks_and_loses_what_such_gearboxes_lose() {
 fn every_layout_with_axes_that_cross_is_fine_and_maps() {
     for (layout, point, [least, greatest]) in CROSSED {
         let folder = folder(&format!("crossed-{layout}"));
-        let told = out(&folder, &["new", "gearbox", layout]);
-        let proposed = told.lines().find(|line| line.contains("gearloss solve")).unwrap();
-        assert_eq!(
-            proposed.replace('"', "").trim(),
-            format!("gearloss solve gearbox.yaml {}", point.join(" "))
-        );
-        let checked = out(&folder, &["check", "gearbox.yaml"]);
-        assert!(
-            checked.starts_with("gearbox.yaml: fine") && !checked.contains("warning"),
-            "{checked}"
-        );
+        create(&folder, layout, point);
         let found = efficiency(&folder, point, &[]);
         assert!(found > least && found < greatest, "{layout}: {found}");
         out(&folder, &["new", "study"]);

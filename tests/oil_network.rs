@@ -1,7 +1,7 @@
 //! The oil network in a gearbox: flows of models, torque of the pump and of rotating channels, pockets, heat carried by flows.
 
 use crate::common::{self, RPM, language};
-use gearloss_framework::evaluate::{GivenQuantity, Noting, Point, PowerFlow, Solution};
+use gearloss_framework::evaluate::{GivenQuantity, Noting, Point, Solution};
 use gearloss_framework::files::Disk;
 use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
@@ -194,7 +194,6 @@ fn flows_of_the_network_carry_heat() {
     let point = Point {
         speeds: &[3000.0 * RPM],
         torques: &[40.0],
-        flow: PowerFlow::Real,
         ..Point::default()
     };
     let around = Surroundings::default();

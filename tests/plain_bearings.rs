@@ -2,7 +2,6 @@
 
 use crate::common::{RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::testing::{assert_close, eval};
@@ -51,8 +50,7 @@ fn with_oil(t: &Transmission, part: &str, speed: f64, torque: f64, oil: f64) -> 
         speeds: &[speed * RPM],
         torques: &[torque],
         flow: PowerFlow::Ideal,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[oil], &mut scratch);
     let number = t.parts().iter().position(|p| p.path == part).unwrap();

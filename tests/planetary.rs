@@ -1,18 +1,13 @@
 //! Planetary gearboxes from their documents: rolling power, unequal sharing, planets that dip, assembly, trains of several
 //! sets.
 
-use crate::common::{RPM, language};
+use crate::common::{RPM, built, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::{Status, Tolerance};
+use gearloss_framework::flow::Status;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
-
-fn built(language: &Language, text: &str) -> Transmission {
-    let gearbox = Gearbox::of_text(language, text, "input.yaml", ".").unwrap();
-    gearbox.transmission(language, &Choice::default()).unwrap()
-}
 
 /// Losses by part path, sum, status, largest power inside.
 fn losses(t: &Transmission, speed: f64, torque: f64, flow: PowerFlow) -> (Vec<(String, f64)>, f64, Status, f64) {
@@ -22,8 +17,7 @@ fn losses(t: &Transmission, speed: f64, torque: f64, flow: PowerFlow) -> (Vec<(S
         speeds: &[speed * RPM],
         torques: &[torque],
         flow,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     let parts = solution.parts().map(|(p, l)| (p.path.clone(), l.watts())).collect();
@@ -142,9 +136,7 @@ fn the_explanation_of_an_unequal_planet_has_the_bits_of_the_solution() {
     let point = Point {
         speeds: &[3000.0 * RPM],
         torques: &[60.0],
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     let watts: Vec<f64> = solution.parts().map(|(_, loss)| loss.watts()).collect();
@@ -292,8 +284,7 @@ fn drag(t: &Transmission, input: f64) -> Option<(f64, bool)> {
         speeds: &[input * RPM],
         torques: &[0.0],
         flow: PowerFlow::Ideal,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     let outside = solution.extents().iter().any(|e| e.outside > 0);
@@ -509,8 +500,7 @@ fn a7_planets_turn_as_willis_says() {
             speeds: &[sun * RPM],
             torques: &[0.0],
             flow: PowerFlow::Ideal,
-            tolerance: Tolerance::default(),
-            inclination: 0.0,
+            ..Point::default()
         };
         let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
         let speed = |name: &str| solution.speed(t.members().iter().position(|m| m == name).unwrap()) / RPM;

@@ -1,26 +1,10 @@
 //! The program as its users call it.
 
-use crate::common;
+use crate::common::{
+    self,
+    program::{gearloss, out},
+};
 use assert_cmd::Command;
-
-fn gearloss(args: &[&str]) -> std::process::Output {
-    Command::cargo_bin("gearloss")
-        .unwrap()
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(args)
-        .output()
-        .unwrap()
-}
-
-fn out(args: &[&str]) -> String {
-    let output = gearloss(args);
-    assert!(
-        output.status.success(),
-        "{args:?}: {}",
-        String::from_utf8_lossy(&output.stderr)
-    );
-    String::from_utf8(output.stdout).unwrap()
-}
 
 const GEARBOX: &str = "examples/two-speed-ev/gearbox.yaml";
 

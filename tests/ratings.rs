@@ -1,20 +1,9 @@
 //! Ratings beside losses: what is printed, what documents may choose, and what they must not change.
 
+use crate::common::program::{gearloss, out};
 use crate::common::study::{of_gearbox, run_texts};
 use assert_cmd::Command;
 use serde_json::Value;
-
-fn out(args: &[&str]) -> String {
-    let output = Command::cargo_bin("gearloss")
-        .unwrap()
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(args)
-        .output()
-        .unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{args:?}: {errors}");
-    String::from_utf8(output.stdout).unwrap()
-}
 
 const UNIT: &str = "examples/electric-drive-unit/gearbox.yaml";
 
@@ -159,12 +148,7 @@ fn a_wrong_parameter_or_name_is_an_error_with_its_place() {
         "ratings.iso_281.reliabilty=0.95",
         "ratings.iso_282=none",
     ] {
-        let output = Command::cargo_bin("gearloss")
-            .unwrap()
-            .current_dir(env!("CARGO_MANIFEST_DIR"))
-            .args(["solve", UNIT, "--torque", "1 Nm", "--speed", "1 rpm", "--set", set])
-            .output()
-            .unwrap();
+        let output = gearloss(&["solve", UNIT, "--torque", "1 Nm", "--speed", "1 rpm", "--set", set]);
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(
             !output.status.success() && text.contains("ratings.iso_28"),

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::{RPM, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::{Status, Tolerance};
+use gearloss_framework::flow::Status;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
@@ -40,9 +40,7 @@ fn balanced(t: &Transmission, speed: f64, torque: f64) -> (Equilibrium, Vec<(Str
     let point = Point {
         speeds: &[speed * RPM],
         torques: &[torque],
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let warm = OilTemperature::Balance.find(t, &case, &point, &mut scratch);
     let (oil, found) = (warm.oil, warm.balance);
@@ -125,8 +123,7 @@ fn drag_at(t: &Transmission, speed: f64, nu: f64) -> f64 {
         speeds: &[speed * RPM],
         torques: &[0.0],
         flow: PowerFlow::Ideal,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     // The viscosity of 220 mm2/s at 40 degC and 26 at 100 degC, after ASTM D341.
     let w = |nu: f64| (nu + 0.7).log10().log10();
@@ -208,9 +205,7 @@ fn temperature_follows_speed_load_oil_and_surroundings() {
     let point = Point {
         speeds: &[0.0],
         torques: &[0.0],
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let found = t.equilibrium(&case, &point, &mut t.scratch(&case));
     assert_eq!((found.outcome, found.oil()), (Outcome::Converged, Some(20.0)));
@@ -225,9 +220,7 @@ fn probing_leaves_no_notes() {
     let point = Point {
         speeds: &[3000.0 * RPM],
         torques: &[-16.0],
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     t.equilibrium(&case, &point, &mut scratch);
     assert!(

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use gearloss_framework::coefficients::COEFFICIENTS;
 use gearloss_framework::document::records_by_type;
 use gearloss_framework::language::{Kind, Language};
+use gearloss_framework::loss::Limit;
 use gearloss_framework::registry::{ComparedSet, Entry, Files, MechanismEntry, RatingPlugin};
 use gearloss_framework::resolve::RATINGS;
 use serde_json::{Map, Value};
@@ -30,6 +31,23 @@ const OMITTED: &str = "\
   chains and belts; `efficiency` and `table` accept those of the maker, also over ratio and angle.
 - Torque converters, leakage of hydraulic actuation: outside the scope of the program; `table` accepts a measured map.
 ";
+
+/// The stated ranges of a model or a rating.
+fn ranges(out: &mut String, limits: &[Limit]) {
+    for limit in limits {
+        writeln!(
+            out,
+            "- Stated range of the {} {} [{}]: {} to {} ({}).",
+            limit.meaning,
+            limit.name,
+            limit.unit,
+            significant(limit.least),
+            significant(limit.greatest),
+            limit.origin
+        )
+        .unwrap();
+    }
+}
 
 fn head_of(entry: &Entry) -> String {
     if entry.origin.package.name != "gearloss-plugins" {
@@ -214,19 +232,7 @@ fn model(out: &mut String, language: &Language, mechanism: &MechanismEntry, entr
     }
     writeln!(out, "Source: {}.\n", entry.source).unwrap();
     measurements(out, entry);
-    for limit in entry.limits {
-        writeln!(
-            out,
-            "- Stated range of the {} {} [{}]: {} to {} ({}).",
-            limit.meaning,
-            limit.name,
-            limit.unit,
-            significant(limit.least),
-            significant(limit.greatest),
-            limit.origin
-        )
-        .unwrap();
-    }
+    ranges(out, entry.limits);
     for term in entry.terms {
         let kind = if term.load_dependent {
             "load-dependent"
@@ -378,19 +384,7 @@ fn rating(out: &mut String, language: &Language, plugin: &RatingPlugin) {
         writeln!(out, "Evidence: {} ({}).", graded.grade.name(), graded.because).unwrap();
     }
     writeln!(out, "Source: {}.\n", entry.source).unwrap();
-    for limit in entry.limits {
-        writeln!(
-            out,
-            "- Stated range of the {} {} [{}]: {} to {} ({}).",
-            limit.meaning,
-            limit.name,
-            limit.unit,
-            significant(limit.least),
-            significant(limit.greatest),
-            limit.origin
-        )
-        .unwrap();
-    }
+    ranges(out, entry.limits);
     for figure in plugin.figures {
         writeln!(
             out,

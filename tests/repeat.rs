@@ -4,7 +4,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::common::{RPM, file, language, two_speed_with};
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::resolve::Choice;
 use gearloss_studies::points::{Field, MOST_IN_FLIGHT, OilTemperature, Points, run_grid, solve_pieces, take_points};
@@ -27,9 +26,7 @@ fn a_point_allocates_nothing() {
             let point = Point {
                 speeds: &[speed * RPM],
                 torques: &[torque],
-                flow: PowerFlow::Real,
-                tolerance: Tolerance::default(),
-                inclination: 0.0,
+                ..Point::default()
             };
             t.evaluate(&case, &point, &[100.0], &mut scratch).loss()
         };

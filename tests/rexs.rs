@@ -3,9 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use assert_cmd::Command;
-
-use crate::common::file;
+use crate::common::{file, program::gearloss_in};
 
 const MODEL: &str = "framework/exchange/tests/data/SEW_3-stage_cylindrical_gearbox_1.0.rexs";
 
@@ -19,12 +17,7 @@ fn folder(name: &str) -> PathBuf {
 
 /// Exit code, output and errors of the program.
 fn called(folder: &Path, args: &[&str]) -> (i32, String, String) {
-    let output = Command::cargo_bin("gearloss")
-        .unwrap()
-        .current_dir(folder)
-        .args(args)
-        .output()
-        .unwrap();
+    let output = gearloss_in(folder, args);
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
 }

@@ -2,7 +2,7 @@
 //! with and without errors of the rig that all points share. The rates that it finds are in docs/inference.md.
 #![allow(clippy::print_stdout, reason = "the documentation quotes the rates")]
 
-use crate::common::{RPM, file, language};
+use crate::common::{RPM, file, language, random_bits};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
@@ -13,16 +13,12 @@ use gearloss_numerics::selection::{Combination, Losses, MeasuredLosses, compare_
 use gearloss_studies::points::{Field, OilTemperature, Points, run_grid};
 use serde_json::{Value, json};
 
-/// Numbers that are the same every time (Steele, Lea, Flood: SplitMix, 2014).
+/// Numbers that are the same every time.
 struct Random(u64);
 
 impl Random {
     fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (((z ^ (z >> 31)) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+        ((random_bits(&mut self.0) >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
     }
 
     fn normal(&mut self) -> f64 {
@@ -39,6 +35,17 @@ struct Bench {
     inputs: Vec<f64>,
     rest: Vec<f64>,
     mechanisms: Vec<Vec<Vec<f64>>>,
+}
+
+impl Bench {
+    fn losses(&self) -> Losses<'_> {
+        Losses {
+            rest: &self.rest,
+            mechanisms: (self.mechanisms.iter())
+                .map(|models| models.iter().map(Vec::as_slice).collect())
+                .collect(),
+        }
+    }
 }
 
 struct Setting<'a> {
@@ -256,14 +263,7 @@ fn decisions_are_rarely_wrong() {
         let bench = &benches[number % 2];
         let noise = [0.005, 0.01, 0.02, 0.04][(number / 2) % 4];
         let kind = (number / 8) % 3;
-        let losses = Losses {
-            rest: &bench.rest,
-            mechanisms: bench
-                .mechanisms
-                .iter()
-                .map(|m| m.iter().map(Vec::as_slice).collect())
-                .collect(),
-        };
+        let losses = bench.losses();
         let truth = losses.of_combination(&[0, 0], &[1.0, 1.0]);
         let floor = 0.01 * rms(&truth);
         // A gain and an offset of the rig, which the accuracy holds beside the noise, as that of an instrument does.
@@ -352,14 +352,7 @@ fn decisions_are_rarely_wrong() {
 fn the_order_is_the_same_for_every_quantity() {
     let language = language();
     let bench = &benches(&language)[0];
-    let losses = Losses {
-        rest: &bench.rest,
-        mechanisms: bench
-            .mechanisms
-            .iter()
-            .map(|m| m.iter().map(Vec::as_slice).collect())
-            .collect(),
-    };
+    let losses = bench.losses();
     let truth = losses.of_combination(&[1, 1], &[1.0, 1.0]);
     let mut random = Random(5);
     for _ in 0..5 {

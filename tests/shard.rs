@@ -1,11 +1,12 @@
 //! Shards of a study, merged, give what a single run gives, byte by byte; they go on where they were broken off, and parts of
 //! anything else are refused.
 
-use crate::common;
+// In a folder, what the program prints of its results is the same wherever that lies.
+use crate::common::{self, program::gearloss_in as gearloss};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Output;
 
 /// A folder of its own for each test.
 fn folder(name: &str) -> PathBuf {
@@ -21,12 +22,6 @@ fn with_gearbox(name: &str) -> PathBuf {
     let gearbox = common::file("examples/two-speed-ev/gearbox.yaml");
     fs::copy(gearbox, folder.join("gearbox.yaml")).unwrap();
     folder
-}
-
-/// The program in a folder, so that what it prints of its results is the same wherever that lies.
-fn gearloss(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_gearloss"));
-    command.current_dir(folder).args(arguments).output().unwrap()
 }
 
 fn fine(folder: &Path, arguments: &[&str]) -> Output {

@@ -1,17 +1,12 @@
 //! Other gearboxes than the example, from their documents: a differential, a planetary set, parallel paths.
 
-use crate::common::{self, RPM, language};
+use crate::common::{self, RPM, built, language};
 use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::{Status, Tolerance};
+use gearloss_framework::flow::Status;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
 use gearloss_framework::transmission::Transmission;
-
-fn built(language: &Language, text: &str) -> Transmission {
-    let gearbox = Gearbox::of_text(language, text, "input.yaml", ".").unwrap();
-    gearbox.transmission(language, &Choice::default()).unwrap()
-}
 
 /// Speeds and torques of all ports, status, efficiency.
 fn solve(
@@ -35,9 +30,7 @@ fn solve(
     let point = Point {
         speeds: &speeds,
         torques: &torques,
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     assert!(solution.residual().unwrap().abs() <= 1e-12 * solution.largest_power().max(1e-300));
@@ -139,9 +132,7 @@ fn wheels_on_one_rigid_axle_share_the_torque_equally() {
     let point = Point {
         speeds: &[4000.0 * RPM],
         torques: &[50.0],
-        flow: PowerFlow::Real,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     let halves = solution.member_torques();
@@ -222,8 +213,7 @@ fn the_planet_bearing_carries_both_meshes_and_the_centrifugal_force() {
         speeds: &[3000.0 * RPM],
         torques: &[60.0],
         flow: PowerFlow::Ideal,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     // Spur gears at the reference distance: twice the tangential force across, the mass of the planet outwards.
@@ -262,8 +252,7 @@ fn parallel_paths_share_as_stated_in_every_state_that_closes_them() {
         speeds: &[300.0],
         torques: &[10.0],
         flow: PowerFlow::Ideal,
-        tolerance: Tolerance::default(),
-        inclination: 0.0,
+        ..Point::default()
     };
     let solution = t.evaluate(&case, &point, &[80.0], &mut scratch);
     assert!((solution.mesh_torque(0).abs() - 7.0).abs() < 1e-9 && (solution.mesh_torque(1).abs() - 3.0).abs() < 1e-9);

@@ -1,6 +1,7 @@
 //! What several tests share.
 
 pub mod contact_work;
+pub mod program;
 pub mod rig;
 pub mod study;
 
@@ -30,6 +31,15 @@ pub fn is_full() -> bool {
     std::env::var_os("FULL").is_some()
 }
 
+/// The next of random numbers that are the same on every machine: `SplitMix64` after Steele, Lea and Flood, 2014.
+pub fn random_bits(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
 /// A file of the repository.
 pub fn file(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
@@ -38,6 +48,12 @@ pub fn file(path: &str) -> PathBuf {
 /// The two-speed example.
 pub fn two_speed(language: &Language) -> Gearbox {
     Gearbox::read(language, &file("examples/two-speed-ev/gearbox.yaml")).unwrap()
+}
+
+/// A gearbox from its text, as it is.
+pub fn built(language: &Language, text: &str) -> Transmission {
+    let gearbox = Gearbox::of_text(language, text, "input.yaml", ".").unwrap();
+    gearbox.transmission(language, &Choice::default()).unwrap()
 }
 
 /// The two-speed example with changed values.

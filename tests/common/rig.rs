@@ -3,8 +3,7 @@
 use std::fmt::Write as _;
 
 use gearloss_framework::document::read_yaml;
-use gearloss_framework::evaluate::{Point, PowerFlow};
-use gearloss_framework::flow::Tolerance;
+use gearloss_framework::evaluate::Point;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
@@ -15,7 +14,7 @@ use gearloss_studies::points::Rows;
 use gearloss_studies::study::StudyEntry;
 use serde_json::{Map, Value, json};
 
-use super::RPM;
+use super::{RPM, random_bits};
 
 /// What the models are not told: an oil that was sheared, rougher flanks, a higher level, other friction and higher loads in the
 /// bearings. Chosen before anything was fitted, as the seed was.
@@ -53,16 +52,12 @@ pub const OILS: [f64; 2] = [40.0, 100.0];
 pub const TORQUES: [f64; 10] = [2.0, 4.0, 6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 18.0, 20.0];
 pub const SPEEDS: u32 = 11;
 
-/// Numbers of a normal distribution, always the same ones (SplitMix64, Box and Muller).
+/// Numbers of a normal distribution, always the same ones (Box and Muller).
 pub struct Normal(pub u64);
 
 impl Normal {
     fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        (random_bits(&mut self.0) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     pub fn next(&mut self) -> f64 {
@@ -180,9 +175,7 @@ impl Rig {
         let point = Point {
             speeds: &[speed],
             torques: &[torque],
-            flow: PowerFlow::Real,
-            tolerance: Tolerance::default(),
-            inclination: 0.0,
+            ..Point::default()
         };
         let solution = t.evaluate(&case, &point, &[oil], &mut scratch);
         let out = t.port("output").unwrap();

@@ -1,7 +1,8 @@
 //! Random numbers that are the same on every machine: each case has its own from the seed and its number, so that one case can be
 //! run alone.
 
-/// `SplitMix64` after Steele, Lea and Flood, 2014.
+use crate::common::random_bits;
+
 pub struct Random(u64);
 
 impl Random {
@@ -13,11 +14,7 @@ impl Random {
     }
 
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        random_bits(&mut self.0)
     }
 
     /// A number below another one.

@@ -31,6 +31,16 @@ pub struct Said {
     pub text: String,
 }
 
+/// The gearbox of the case, changed at some places.
+pub fn changed(case: &Case, changes: &[(&str, &str)]) -> String {
+    let mut text = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replace(old, new);
+    }
+    text
+}
+
 impl Case {
     /// The folder of this name, copied. Each test takes a `purpose` of its own, because tests run side by side.
     pub fn new(name: &str, purpose: &str) -> Self {

@@ -2,19 +2,9 @@
 
 use serde_json::Value;
 
-use super::Case;
+use super::{Case, changed};
 
 const POINT: [&str; 4] = ["--torque", "0 Nm", "--speed", "1500 rpm"];
-
-/// The gearbox of the case, changed at some places.
-fn changed(case: &Case, changes: &[(&str, &str)]) -> String {
-    let mut text = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
-    for (old, new) in changes {
-        assert!(text.contains(old), "{old}");
-        text = text.replace(old, new);
-    }
-    text
-}
 
 /// What `solve` finds of the bearings.
 fn bearings(case: &Case, text: &str, more: &[&str]) -> Vec<Value> {

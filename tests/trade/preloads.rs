@@ -2,22 +2,12 @@
 
 use serde_json::Value;
 
-use super::Case;
+use super::{Case, changed};
 use crate::common;
 
 const POINT: [&str; 4] = ["--torque", "0 Nm", "--speed", "1500 rpm"];
 const PRELOAD: &str = "preload: { force: 1000 N, distance: 120 mm, housing: { material: steel } }";
 const AT_B: &str = "pitch_diameter: 52.237634189792 mm }";
-
-/// The gearbox of the case, changed at some places.
-fn changed(case: &Case, changes: &[(&str, &str)]) -> String {
-    let mut text = std::fs::read_to_string(case.path("gearbox.yaml")).unwrap();
-    for (old, new) in changes {
-        assert!(text.contains(old), "{old}");
-        text = text.replace(old, new);
-    }
-    text
-}
 
 /// A solved point.
 fn solved(case: &Case, text: &str, more: &[&str]) -> Value {

@@ -9,7 +9,7 @@ use rust_xlsxwriter::Workbook;
 use serde_json::Value;
 
 use super::Case;
-use crate::common;
+use crate::common::{self, random_bits};
 use crate::measured_formats::builder;
 
 fn unit(symbol: &str) -> &'static Unit {
@@ -380,11 +380,7 @@ struct Random(u64);
 
 impl Random {
     fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        random_bits(&mut self.0)
     }
 
     fn below(&mut self, most: usize) -> usize {

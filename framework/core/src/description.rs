@@ -33,7 +33,9 @@ pub use crossed::{
     SpiralAngleOf, WormMeshEntry,
 };
 pub use gearloss_document::Ordered;
-pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
+pub use gears::{
+    DifferentialEntry, GearEntry, GearKind, MeshCommon, MeshEntry, MeshMetal, Mounting, PlanetarySetEntry, Surface,
+};
 pub use housing::{
     HeatInto, HousingEntry, InsideEntry, InsideSection, LevelOver, OilEntry, OutsideEntry, Running, RunningWord,
     Thermal, ThermalMode,
@@ -191,13 +193,19 @@ impl GearboxEntry {
     pub fn all_meshes(&self) -> impl Iterator<Item = (String, &[String; 2], Option<&str>)> {
         let of = |section: &str, id: &str| format!("{section}.{id}");
         let meshes = self.meshes.iter();
-        let meshes = meshes.map(move |(id, m)| (of("meshes", id), &m.gears, m.lubricant.as_deref()));
+        let meshes = meshes.map(move |(id, m)| (of("meshes", id), &m.gears, m.common.lubricant.as_deref()));
         let bevel = self.bevel_meshes.iter();
-        let bevel = bevel.map(move |(id, m)| (of("bevel_meshes", id), &m.gears, m.lubricant.as_deref()));
+        let bevel = bevel.map(move |(id, m)| (of("bevel_meshes", id), &m.gears, m.common.lubricant.as_deref()));
         let worm = self.worm_meshes.iter();
-        let worm = worm.map(move |(id, m)| (of("worm_meshes", id), &m.gears, m.lubricant.as_deref()));
+        let worm = worm.map(move |(id, m)| (of("worm_meshes", id), &m.gears, m.common.lubricant.as_deref()));
         let crossed = self.crossed_helical_meshes.iter();
-        let crossed = crossed.map(move |(id, m)| (of("crossed_helical_meshes", id), &m.gears, m.lubricant.as_deref()));
+        let crossed = crossed.map(move |(id, m)| {
+            (
+                of("crossed_helical_meshes", id),
+                &m.gears,
+                m.common.lubricant.as_deref(),
+            )
+        });
         meshes.chain(bevel).chain(worm).chain(crossed)
     }
 

@@ -33,12 +33,12 @@ use crate::geometry::crossed::Flank;
 use crate::hydraulics::{Inputs, Window};
 use crate::loads::{Group, LEAST_STATIC_SAFETY, SupportLoad, ToothForces};
 use crate::loss::{Loss, NoteBase, Notebook, Seen, Undefined};
-use crate::mechanism::Answers;
 use crate::mechanism::bevel_mesh::{BevelMesh, BevelMeshAt, BevelPart};
 use crate::mechanism::crossed_helical_mesh::{CrossedHelicalMesh, CrossedHelicalMeshAt};
 use crate::mechanism::gear_drag::{GearDrag, GearDragAt};
 use crate::mechanism::gear_mesh::{GearMesh, GearMeshAt, MeshPart};
 use crate::mechanism::worm_mesh::{WormMesh, WormMeshAt, WormPart};
+use crate::mechanism::{Answers, with_oil};
 use crate::real::{Mask as _, Points, Real};
 use crate::sump::CAPTURE;
 use crate::thermal::Unbalanced;
@@ -696,7 +696,7 @@ impl Transmission {
             R::each(highest)
         };
         let second = |x: R| if seat.pair { x } else { R::ZERO };
-        GearDragAt {
+        with_oil!(from oil, GearDragAt {
             part: &drag.part,
             speed: speed[0],
             speed_2: speed[1],
@@ -708,13 +708,9 @@ impl Transmission {
             towards_mesh_2: second(towards(1)),
             mesh_height: mesh_height(0),
             mesh_height_2: second(mesh_height(1)),
-            temperature: oil.temperature,
-            nu: oil.nu,
-            eta: oil.eta,
-            rho: oil.rho,
             injected: state.supply(drag.supply).flow.max(R::ZERO),
             notes: book.notes(drag.model.notes),
-        }
+        })
     }
 
     /// Loss of one mesh, one copy; the mean over the copies if their loads differ.
@@ -792,24 +788,16 @@ impl Transmission {
         if mesh.greased {
             notes.branch("grease: the oil is its base oil");
         }
-        GearMeshAt {
+        with_oil!(of contacts from oil, GearMeshAt {
             part,
             torque: (tangential * mesh.seat.radius()).abs(),
             speed: self.mesh_speed(index, state.speeds),
             first_drives: flag(drives != Drive::Second),
-            temperature: oil.temperature,
-            nu: oil.nu,
-            eta: oil.eta,
-            rho: oil.rho,
-            alpha: oil.alpha,
-            beta: oil.beta,
-            conductivity: oil.conductivity,
-            x_l: oil.x_l,
             bodies_known: flag(bodies.is_some()),
             temperature_1: bodies.map_or(oil.temperature, |b| b[0]),
             temperature_2: bodies.map_or(oil.temperature, |b| b[1]),
             notes,
-        }
+        })
     }
 
     /// The context of the model of a mesh of bevel gears with this part.
@@ -848,17 +836,13 @@ impl Transmission {
         if mesh.greased {
             notes.branch("grease: the oil is its base oil");
         }
-        WormMeshAt {
+        with_oil!(from oil, WormMeshAt {
             part,
             torque: (tangential * mesh.seat.radius()).abs(),
             speed: self.mesh_speed(index, state.speeds),
             first_drives: R::constant(f64::from(u8::from(drives != Drive::Second))),
-            temperature: oil.temperature,
-            nu: oil.nu,
-            eta: oil.eta,
-            rho: oil.rho,
             notes,
-        }
+        })
     }
 
     /// Speed of a mesh's first gear in its carrier's frame; zero if it is rounding error. \[rad/s\]

@@ -186,11 +186,6 @@ impl Machine {
         self.freewheel.is_some()
     }
 
-    /// True if its losses contain those of the inverter, or its inverter is described.
-    pub fn has_inverter(&self) -> bool {
-        self.inverter.is_some() || self.contains.contains(&Contained::Inverter)
-    }
-
     /// How far a speed and a torque are beyond the map: the excess over its largest torque at the speed, and over its largest speed; zero
     /// inside. \[Nm, rad/s\]
     pub fn excess(&self, speed: f64, torque: f64) -> [f64; 2] {

@@ -412,6 +412,9 @@ pub struct QuantityDoc {
 /// Quantities that depend on each other are listed below in `laws`: a [`Law`] in its written form, and for each of its quantities
 /// the value from the others; `usually` before the brace if the law need not hold.
 ///
+/// `..oil from "the oil of the component",` stands for the temperature, the viscosities and the density of an oil, with their law;
+/// `..oil of contacts from` adds what friction between teeth depends on.
+///
 /// A context may gain quantities, so other crates do not construct it (`#[non_exhaustive]`): they start from the usual context or
 /// an existing one, and change the known quantities (`with`, `nested`).
 #[macro_export]
@@ -424,6 +427,47 @@ macro_rules! context {
     };
     ($(#[doc = $head:literal])+ pub struct $At:ident of $M:ty {
         $($(#[doc = $doc:literal])+ $name:ident: $usual:literal in $least:literal ..= $greatest:literal from $from:literal,)+
+        ..oil of contacts from $oil:literal,
+        $($more:tt)*
+    } $($laws:tt)*) => {
+        $crate::context! { $(#[doc = $head])+ pub struct $At of $M {
+            $($(#[doc = $doc])+ $name: $usual in $least ..= $greatest from $from,)+
+            ..oil from $oil,
+            /// Pressure-viscosity coefficient of the oil. [1/GPa]
+            alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
+            /// Relative decrease of the oil's viscosity with temperature. [1/K]
+            beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
+            /// Thermal conductivity of the oil. [W/(m K)]
+            conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
+            /// Lubricant factor of mean mesh friction stated for the oil. [-]
+            x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
+            $($more)*
+        } $($laws)* }
+    };
+    ($(#[doc = $head:literal])+ pub struct $At:ident of $M:ty {
+        $($(#[doc = $doc:literal])+ $name:ident: $usual:literal in $least:literal ..= $greatest:literal from $from:literal,)+
+        ..oil from $oil:literal,
+        $($more:tt)*
+    } $(laws { $($laws:tt)+ })?) => {
+        $crate::context! { $(#[doc = $head])+ pub struct $At of $M {
+            $($(#[doc = $doc])+ $name: $usual in $least ..= $greatest from $from,)+
+            /// Temperature of the oil. [degC]
+            temperature: 80.0 in -40.0..=200.0 from
+                concat!($oil, ": given, balanced or a node of the network, and `temperature_offset`"),
+            /// Kinematic viscosity of the oil. [mm2/s]
+            nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
+            /// Dynamic viscosity of the oil. [mPa s]
+            eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
+            /// Density of the oil. [kg/m3]
+            rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+            $($more)*
+        } laws {
+            "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
+            $($($laws)+)?
+        } }
+    };
+    ($(#[doc = $head:literal])+ pub struct $At:ident of $M:ty {
+        $($(#[doc = $doc:literal])+ $name:ident: $usual:literal in $least:literal ..= $greatest:literal from $from:expr,)+
     } $(laws {
         $($law:literal $($usually:ident)? { $($of:ident: $follows:expr),+ $(,)? })+
     })?) => {
@@ -539,6 +583,47 @@ macro_rules! context {
         }
     };
 }
+
+/// A context with these values and those of `..oil`, or of `..oil of contacts`, from an oil or another context.
+macro_rules! with_oil {
+    (of contacts from $oil:expr, $At:ident { $($name:ident $(: $value:expr)?),+ $(,)? }) => {
+        $crate::mechanism::with_oil!(from $oil, $At {
+            alpha: $oil.alpha,
+            beta: $oil.beta,
+            conductivity: $oil.conductivity,
+            x_l: $oil.x_l,
+            $($name $(: $value)?,)+
+        })
+    };
+    (from $oil:expr, $At:ident { $($name:ident $(: $value:expr)?),+ $(,)? }) => {
+        $At {
+            temperature: $oil.temperature,
+            nu: $oil.nu,
+            eta: $oil.eta,
+            rho: $oil.rho,
+            $($name $(: $value)?,)+
+        }
+    };
+}
+pub(crate) use with_oil;
+
+/// A part is described by the schema of the entry from which it is made.
+macro_rules! described_as {
+    ($Part:ty, $Entry:ty) => {
+        impl schemars::JsonSchema for $Part {
+            fn inline_schema() -> bool {
+                true
+            }
+            fn schema_name() -> std::borrow::Cow<'static, str> {
+                <$Entry>::schema_name()
+            }
+            fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+                <$Entry>::json_schema(generator)
+            }
+        }
+    };
+}
+pub(crate) use described_as;
 
 /// Unit conversions for empirical formulas, which then show their units at the point of use.
 pub trait ShopUnits: Real {

@@ -7,6 +7,7 @@ pub mod axes;
 pub mod axle_split;
 pub mod balance;
 pub mod breakdown;
+pub mod chosen;
 pub mod compare;
 pub mod component_compare;
 pub mod contact_path;
@@ -61,6 +62,7 @@ use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 
+pub use chosen::Chosen;
 pub use engine::Engine;
 pub use head::Head;
 pub use plan::{BuiltAgain, Plan, Run, Runs, Work};

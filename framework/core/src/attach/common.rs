@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::description::MeshCommon;
+
 /// Common keys of every component, independent of its mechanism.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 pub struct Common {
@@ -21,6 +23,24 @@ pub struct Common {
     #[serde(default = "default_one")]
     #[schemars(range(min = 1, max = 1000))]
     pub count: u32,
+}
+
+impl Common {
+    /// Those of an entry with keys of its own, for one piece.
+    pub fn of(lubricant: Option<&String>, temperature_offset: f64, loss_factor: f64) -> Self {
+        Self {
+            lubricant: lubricant.cloned(),
+            temperature_offset,
+            loss_factor,
+            count: 1,
+        }
+    }
+}
+
+impl From<&MeshCommon> for Common {
+    fn from(mesh: &MeshCommon) -> Self {
+        Self::of(mesh.lubricant.as_ref(), mesh.temperature_offset, mesh.loss_factor)
+    }
 }
 
 fn default_one() -> u32 {

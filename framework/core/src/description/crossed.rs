@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bevel_teeth::BevelTeeth;
 use super::defaults::default_one;
+use super::gears::{MeshCommon, MeshMetal};
 use crate::geometry::WormProfile;
 use crate::mechanism::ModelRef;
 use crate::mechanism::bevel_mesh::BevelMesh;
@@ -31,26 +32,12 @@ pub struct BevelMeshEntry {
     /// Distances of the mean points of pinion and wheel from the crossing point of the axes, along their axes; only compared. [mm]
     #[schemars(inner(range(min = -1e4, max = 1e4)))]
     pub mounting_distance: Option<[f64; 2]>,
-    /// Young's modulus of the gears that name no `material`. [GPa]
-    #[serde(default = "crate::mechanism::gear_mesh::steel")]
-    #[schemars(range(min = 0.1, max = 1000.0))]
-    pub elastic_modulus: f64,
-    /// Poisson's ratio of the gears that name no `material`. [-]
-    #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
-    #[schemars(range(min = 0.0, max = 0.49))]
-    pub poisson: f64,
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature in the mesh minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
-    /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
-    /// may fit it. [-]
-    #[serde(default = "default_one")]
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub loss_factor: f64,
+    /// Elasticity of its gears.
+    #[serde(flatten)]
+    pub metal: MeshMetal,
+    /// Oil and factor on the loss.
+    #[serde(flatten)]
+    pub common: MeshCommon,
     /// Loss model of the mesh; default: that of `models`.
     pub model: Option<ModelRef<BevelMesh>>,
 }
@@ -207,18 +194,9 @@ pub struct WormMeshEntry {
     /// Profile shift coefficient of the wheel; only compared with that of the axes. [-]
     #[schemars(range(min = -3.0, max = 3.0))]
     pub profile_shift: Option<f64>,
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature in the mesh minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
-    /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
-    /// may fit it. [-]
-    #[serde(default = "default_one")]
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub loss_factor: f64,
+    /// Oil and factor on the loss.
+    #[serde(flatten)]
+    pub common: MeshCommon,
     /// Loss model of the mesh; default: that of `models`.
     pub model: Option<ModelRef<WormMesh>>,
 }
@@ -239,26 +217,12 @@ pub struct CrossedHelicalMeshEntry {
     /// Helix angles of both gears. Of equal hands they add up to the angle between the axes, else their difference is that angle. [deg]
     #[schemars(inner(range(min = 0.0, max = 85.0)))]
     pub helix_angle: [f64; 2],
-    /// Young's modulus of the gears that name no `material`. [GPa]
-    #[serde(default = "crate::mechanism::gear_mesh::steel")]
-    #[schemars(range(min = 0.1, max = 1000.0))]
-    pub elastic_modulus: f64,
-    /// Poisson's ratio of the gears that name no `material`. [-]
-    #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
-    #[schemars(range(min = 0.0, max = 0.49))]
-    pub poisson: f64,
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature in the mesh minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
-    /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
-    /// may fit it. [-]
-    #[serde(default = "default_one")]
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub loss_factor: f64,
+    /// Elasticity of its gears.
+    #[serde(flatten)]
+    pub metal: MeshMetal,
+    /// Oil and factor on the loss.
+    #[serde(flatten)]
+    pub common: MeshCommon,
     /// Loss model of the mesh; default: that of `models`.
     pub model: Option<ModelRef<CrossedHelicalMesh>>,
 }

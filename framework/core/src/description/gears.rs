@@ -143,6 +143,36 @@ pub struct Surface {
     pub rq: Option<f64>,
 }
 
+/// What the entries of all kinds of meshes state alike.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+pub struct MeshCommon {
+    /// Oil; default: that of the housing.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
+    pub lubricant: Option<String>,
+    /// Oil temperature in the mesh minus that of the sump. [K]
+    #[serde(default)]
+    #[schemars(range(min = -200.0, max = 200.0))]
+    pub temperature_offset: f64,
+    /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
+    /// may fit it. [-]
+    #[serde(default = "default_one")]
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub loss_factor: f64,
+}
+
+/// Elasticity of the gears of a mesh that name no material.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+pub struct MeshMetal {
+    /// Young's modulus of the gears that name no `material`. [GPa]
+    #[serde(default = "crate::mechanism::gear_mesh::steel")]
+    #[schemars(range(min = 0.1, max = 1000.0))]
+    pub elastic_modulus: f64,
+    /// Poisson's ratio of the gears that name no `material`. [-]
+    #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
+    #[schemars(range(min = 0.0, max = 0.49))]
+    pub poisson: f64,
+}
+
 /// Two cylindrical gears in mesh, on parallel axes.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeshEntry {
@@ -166,14 +196,9 @@ pub struct MeshEntry {
     /// Double-helical gears: the axial forces of both halves cancel.
     #[serde(default)]
     pub double_helical: bool,
-    /// Young's modulus of the gears that name no `material`. [GPa]
-    #[serde(default = "crate::mechanism::gear_mesh::steel")]
-    #[schemars(range(min = 0.1, max = 1000.0))]
-    pub elastic_modulus: f64,
-    /// Poisson's ratio of the gears that name no `material`. [-]
-    #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
-    #[schemars(range(min = 0.0, max = 0.49))]
-    pub poisson: f64,
+    /// Elasticity of its gears.
+    #[serde(flatten)]
+    pub metal: MeshMetal,
     /// Misalignment of the flanks over the face width, such as from bores, for `load_sharing: { type: slices }`; positive if the end
     /// of the face opens. [um]
     #[serde(default)]
@@ -187,18 +212,9 @@ pub struct MeshEntry {
     /// Tip shortening maintains the tip clearance of external gears with profile shift.
     #[serde(default = "yes")]
     pub tip_shortening: bool,
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature in the mesh minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
-    /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
-    /// may fit it. [-]
-    #[serde(default = "default_one")]
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub loss_factor: f64,
+    /// Oil and factor on the loss.
+    #[serde(flatten)]
+    pub common: MeshCommon,
     /// Loss model of the mesh; default: that of `models`.
     pub model: Option<ModelRef<GearMesh>>,
     /// Drag models of this mesh by name; they replace those in `models`.

@@ -6,10 +6,10 @@ use crate::attach::{Oil, State};
 use crate::evaluate::Reading;
 use crate::flow::{Drive, FlowState};
 use crate::loss::{Loss, Notebook, Notes, Undefined};
-use crate::mechanism::Answers;
 use crate::mechanism::chain::{Chain, ChainAt, ChainPart};
 use crate::mechanism::differential::{Differential, DifferentialAt, DifferentialPart};
 use crate::mechanism::joint::{Joint, JointAt, JointPart};
+use crate::mechanism::{Answers, with_oil};
 use crate::real::{Points, Real};
 use crate::transmission::{Case, Transfer, TransferLaw, Transmission};
 
@@ -151,18 +151,14 @@ fn carrier_speed<R: Real>(transfer: &Transfer, speeds: &[R]) -> R {
 
 #[inline(always)]
 fn chain_at<'a, R: Points>(part: &'a ChainPart, side: &Side<R>, oil: &Oil<R>, notes: Notes<'a, R>) -> ChainAt<'a, R> {
-    ChainAt {
+    with_oil!(from oil, ChainAt {
         part,
         torque: side.torque,
         speed: side.speed,
         first_drives: side.first_drives,
         ratio: R::constant(side.ratio),
-        temperature: oil.temperature,
-        nu: oil.nu,
-        eta: oil.eta,
-        rho: oil.rho,
         notes,
-    }
+    })
 }
 
 #[inline(always)]
@@ -185,20 +181,12 @@ fn differential_at<'a, R: Points>(
     oil: &Oil<R>,
     notes: Notes<'a, R>,
 ) -> DifferentialAt<'a, R> {
-    DifferentialAt {
+    with_oil!(of contacts from oil, DifferentialAt {
         part,
         torque: side.torque,
         speed: side.speed,
         left_drives: side.first_drives,
         case_speed,
-        temperature: oil.temperature,
-        nu: oil.nu,
-        eta: oil.eta,
-        rho: oil.rho,
-        alpha: oil.alpha,
-        beta: oil.beta,
-        conductivity: oil.conductivity,
-        x_l: oil.x_l,
         notes,
-    }
+    })
 }

@@ -2,7 +2,7 @@
 
 use crate::attach::{MemberSite, OnMember};
 use crate::loss::{Loss, Notes, Undefined};
-use crate::mechanism::{Component, Mechanism, NoPart, Scalar};
+use crate::mechanism::{Component, Mechanism, NoPart, Scalar, with_oil};
 use crate::real::{Points, Real};
 use crate::{answered_by, context};
 
@@ -23,14 +23,7 @@ context! {
     pub struct AuxiliaryAt of Auxiliary {
         /// Speed of the shaft that drives it, signed. [rpm]
         speed: 2000.0 in -30000.0..=30000.0 from "kinematics of its shaft",
-        /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the component: given, balanced or a node of the network, and `temperature_offset`",
-        /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
-        /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
-        /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+        ..oil from "the oil of the component",
         /// Flow through the pump or the rotating channels that the model names. [l/min]
         flow: 8.0 in 0.0..=100.0 from "the oil network",
         /// Pressure rise of that pump. [bar]
@@ -39,8 +32,6 @@ context! {
         displacement: 8.0 in 0.0..=100.0 from "the oil network",
         /// Torque that the oil takes in that element without friction: displacement times pressure rise, or the change of its angular momentum. [Nm]
         oil_torque: 0.5 in 0.0..=100.0 from "the oil network",
-    } laws {
-        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }
 }
 
@@ -64,19 +55,15 @@ impl Component for Auxiliary {
     #[inline(always)]
     fn context<'a, R: Points>(part: &'a NoPart, site: MemberSite<'a, R>, notes: Notes<'a, R>) -> AuxiliaryAt<'a, R> {
         let oil = site.oil;
-        AuxiliaryAt {
+        with_oil!(from oil, AuxiliaryAt {
             part,
             speed: site.speed,
-            temperature: oil.temperature,
-            nu: oil.nu,
-            eta: oil.eta,
-            rho: oil.rho,
             flow: site.supply.flow.max(R::ZERO),
             pressure: site.supply.rise.max(R::ZERO),
             displacement: site.supply.displacement,
             oil_torque: site.supply.torque.max(R::ZERO),
             notes,
-        }
+        })
     }
 
     fn lowest(_part: &NoPart) -> Option<f64> {

@@ -14,7 +14,7 @@ use crate::attach::{Support, SupportSite};
 use crate::loads::{AngularRow, Carries, Induced, StaticFactors, StaticRating, Thrust};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::maker::bare;
-use crate::mechanism::{Component, Mechanism, Scalar};
+use crate::mechanism::{Component, Mechanism, Scalar, described_as};
 use crate::real::{Dual, Lane, Points, Real};
 use crate::resolve::basic_designation;
 use crate::{answered_by, context};
@@ -486,17 +486,7 @@ impl BearingKind {
     }
 }
 
-impl JsonSchema for BearingPart {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        BearingEntry::schema_name()
-    }
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        BearingEntry::json_schema(generator)
-    }
-}
+described_as!(BearingPart, BearingEntry);
 
 impl TryFrom<BearingEntry> for BearingPart {
     type Error = String;

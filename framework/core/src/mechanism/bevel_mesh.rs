@@ -11,9 +11,9 @@ use serde::{Deserialize, Serialize};
 use crate::description::{BevelAxes, BevelPair, BevelTeeth};
 use crate::loss::{Loss, Term, Undefined};
 use crate::material::Material;
-use crate::mechanism::Mechanism;
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshOil, MeshPart, steel, steel_poisson};
 use crate::mechanism::mesh_law::mesh_laws;
+use crate::mechanism::{Mechanism, described_as, with_oil};
 use crate::real::{Mask as _, Real};
 use crate::{answered_by, context};
 
@@ -104,17 +104,7 @@ impl BevelPart {
     }
 }
 
-impl JsonSchema for BevelPart {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        BevelEntry::schema_name()
-    }
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        BevelEntry::json_schema(generator)
-    }
-}
+described_as!(BevelPart, BevelEntry);
 
 impl TryFrom<BevelEntry> for BevelPart {
     type Error = String;
@@ -148,30 +138,13 @@ context! {
         first_drives: 1.0 in 0.0..=1.0 from "the direction of the power flow",
         /// One if the drive flanks carry, the concave one of the pinion and the convex one of the wheel; zero if the coast flanks do. [-]
         drive_flank: 1.0 in 0.0..=1.0 from "the directions of torque and rotation, and the hand of the pinion",
-        /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network, and `temperature_offset`",
-        /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
-        /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
-        /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
-        /// Pressure-viscosity coefficient of the oil. [1/GPa]
-        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative decrease of the oil's viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
-        /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
-        /// Lubricant factor of mean mesh friction stated for the oil. [-]
-        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
+        ..oil of contacts from "the oil of the mesh",
         /// One if a thermal network provides the gear temperatures, zero if the model computes them. [-]
         bodies_known: 0.0 in 0.0..=1.0 from "the thermal network",
         /// Body temperature of the pinion, if known. [degC]
         temperature_1: 80.0 in -40.0..=200.0 from "the node of the pinion",
         /// Body temperature of the wheel, if known. [degC]
         temperature_2: 80.0 in -40.0..=200.0 from "the node of the wheel",
-    } laws {
-        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }
 }
 
@@ -188,25 +161,17 @@ impl<'a, R: Real> BevelMeshAt<'a, R> {
     /// The inputs of a pair from those of its drive flanks alone, and one where the drive flanks carry, zero where the coast flanks do.
     #[inline(always)]
     pub(crate) fn on_flanks(part: &'a BevelPart, mesh: &GearMeshAt<'a, R>, drive_flank: R) -> Self {
-        Self {
+        with_oil!(of contacts from mesh, Self {
             part,
             torque: mesh.torque,
             speed: mesh.speed,
             first_drives: mesh.first_drives,
             drive_flank,
-            temperature: mesh.temperature,
-            nu: mesh.nu,
-            eta: mesh.eta,
-            rho: mesh.rho,
-            alpha: mesh.alpha,
-            beta: mesh.beta,
-            conductivity: mesh.conductivity,
-            x_l: mesh.x_l,
             bodies_known: mesh.bodies_known,
             temperature_1: mesh.temperature_1,
             temperature_2: mesh.temperature_2,
             notes: mesh.notes,
-        }
+        })
     }
 
     /// The flanks that carry: 0 for the drive flanks, 1 for the coast flanks.
@@ -220,24 +185,16 @@ impl<'a, R: Real> BevelMeshAt<'a, R> {
     /// The flanks that carry as a mesh, with the torque that causes their normal force without friction.
     #[inline(always)]
     pub fn on_flank(&self, flank: usize) -> GearMeshAt<'a, R> {
-        GearMeshAt {
+        with_oil!(of contacts from self, GearMeshAt {
             part: &self.part.flanks[flank],
             torque: self.torque,
             speed: self.speed,
             first_drives: self.first_drives,
-            temperature: self.temperature,
-            nu: self.nu,
-            eta: self.eta,
-            rho: self.rho,
-            alpha: self.alpha,
-            beta: self.beta,
-            conductivity: self.conductivity,
-            x_l: self.x_l,
             bodies_known: self.bodies_known,
             temperature_1: self.temperature_1,
             temperature_2: self.temperature_2,
             notes: self.notes,
-        }
+        })
     }
 
     /// Normal force of the carrying flanks with friction on them. \[N\]

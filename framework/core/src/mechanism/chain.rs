@@ -124,16 +124,7 @@ context! {
         first_drives: 1.0 in 0.0..=1.0 from "the direction of the power flow",
         /// Speed of the first wheel over that of the second. [-]
         ratio: 1.0 in 0.05..=20.0 from "the numbers of teeth, or `ratio` in the gear",
-        /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "`lubricant` of the chain or the oil of the housing: given, balanced or a node of the network, and `temperature_offset`",
-        /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
-        /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
-        /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
-    } laws {
-        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
+        ..oil from "`lubricant` of the chain or the oil of the housing",
     }
 }
 

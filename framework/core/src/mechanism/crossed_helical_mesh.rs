@@ -10,9 +10,9 @@ use crate::geometry::Pair;
 use crate::geometry::crossed::{PitchCones, TeethFault};
 use crate::loss::{Loss, Term};
 use crate::material::{Material, reduced_modulus};
-use crate::mechanism::Mechanism;
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart, steel, steel_poisson};
 use crate::mechanism::mesh_law::mesh_laws;
+use crate::mechanism::{Mechanism, described_as, with_oil};
 use crate::real::Real;
 use crate::{answered_by, context};
 
@@ -103,17 +103,7 @@ impl CrossedHelicalPart {
     }
 }
 
-impl JsonSchema for CrossedHelicalPart {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        CrossedHelicalEntry::schema_name()
-    }
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        CrossedHelicalEntry::json_schema(generator)
-    }
-}
+described_as!(CrossedHelicalPart, CrossedHelicalEntry);
 
 impl TryFrom<CrossedHelicalEntry> for CrossedHelicalPart {
     type Error = String;
@@ -147,24 +137,7 @@ context! {
         speed: 1000.0 in -20000.0..=20000.0 from "kinematics",
         /// One if the first gear drives, zero if the second does. [-]
         first_drives: 1.0 in 0.0..=1.0 from "the direction of the power flow",
-        /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network, and `temperature_offset`",
-        /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
-        /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
-        /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
-        /// Pressure-viscosity coefficient of the oil. [1/GPa]
-        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative decrease of the oil's viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
-        /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
-        /// Lubricant factor of mean mesh friction stated for the oil. [-]
-        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
-    } laws {
-        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
+        ..oil of contacts from "the oil of the mesh",
     }
 }
 
@@ -172,44 +145,28 @@ impl<'a, R: Real> CrossedHelicalMeshAt<'a, R> {
     /// The inputs of a pair from those of its flanks.
     #[inline(always)]
     pub(crate) fn of_flanks(part: &'a CrossedHelicalPart, mesh: &GearMeshAt<'a, R>) -> Self {
-        Self {
+        with_oil!(of contacts from mesh, Self {
             part,
             torque: mesh.torque,
             speed: mesh.speed,
             first_drives: mesh.first_drives,
-            temperature: mesh.temperature,
-            nu: mesh.nu,
-            eta: mesh.eta,
-            rho: mesh.rho,
-            alpha: mesh.alpha,
-            beta: mesh.beta,
-            conductivity: mesh.conductivity,
-            x_l: mesh.x_l,
             notes: mesh.notes,
-        }
+        })
     }
 
     /// The flanks as a mesh, with the torque that causes their normal force without friction.
     #[inline(always)]
     pub fn flanks(&self) -> GearMeshAt<'a, R> {
-        GearMeshAt {
+        with_oil!(of contacts from self, GearMeshAt {
             part: &self.part.flanks,
             torque: self.torque,
             speed: self.speed,
             first_drives: self.first_drives,
-            temperature: self.temperature,
-            nu: self.nu,
-            eta: self.eta,
-            rho: self.rho,
-            alpha: self.alpha,
-            beta: self.beta,
-            conductivity: self.conductivity,
-            x_l: self.x_l,
             bodies_known: R::ZERO,
             temperature_1: self.temperature,
             temperature_2: self.temperature,
             notes: self.notes,
-        }
+        })
     }
 
     /// Arm of the torque of the driving gear for a unit of normal force, over the speed of the first gear, with sliding power and friction arm of

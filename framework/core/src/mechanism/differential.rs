@@ -9,7 +9,7 @@ use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::material::Material;
 use crate::mechanism::bevel_mesh::{BevelMeshAt, BevelPart, FlankSurfaces};
 use crate::mechanism::gear_mesh::{steel, steel_poisson};
-use crate::mechanism::{Answers, Mechanism, Scalar};
+use crate::mechanism::{Answers, Mechanism, Scalar, with_oil};
 use crate::real::{Dual, Lane, Points as _, Real};
 use crate::{answered_by, context};
 
@@ -183,24 +183,7 @@ context! {
         left_drives: 1.0 in 0.0..=1.0 from "the direction of the power flow",
         /// Speed of the case, signed. [rpm]
         case_speed: 800.0 in -10000.0..=10000.0 from "kinematics",
-        /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "`lubricant` of the differential or the oil of the housing: given, balanced or a node of the network, and `temperature_offset`",
-        /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
-        /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
-        /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
-        /// Pressure-viscosity coefficient of the oil. [1/GPa]
-        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative decrease of the oil's viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
-        /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
-        /// Lubricant factor of mean mesh friction stated for the oil. [-]
-        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
-    } laws {
-        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
+        ..oil of contacts from "`lubricant` of the differential or the oil of the housing",
     }
 }
 
@@ -214,26 +197,18 @@ impl<R: Real> DifferentialAt<'_, R> {
         (torque, speed, pinion_drives): (R, R, bool),
         notes: Notes<'b, R>,
     ) -> BevelMeshAt<'b, R> {
-        BevelMeshAt {
+        with_oil!(of contacts from self, BevelMeshAt {
             part,
             torque,
             speed,
             first_drives: R::constant(f64::from(u8::from(pinion_drives))),
             // Straight flanks are equal.
             drive_flank: R::constant(1.0),
-            temperature: self.temperature,
-            nu: self.nu,
-            eta: self.eta,
-            rho: self.rho,
-            alpha: self.alpha,
-            beta: self.beta,
-            conductivity: self.conductivity,
-            x_l: self.x_l,
             bodies_known: R::ZERO,
             temperature_1: self.temperature,
             temperature_2: self.temperature,
             notes,
-        }
+        })
     }
 }
 

@@ -211,18 +211,10 @@ context! {
         mesh_height: 0.0 in 0.0..=5000.0 from "direction of rotation and the positions of the mates",
         /// The same for the second gear. [mm]
         mesh_height_2: 0.0 in 0.0..=5000.0 from "direction of rotation and the positions of its mates",
-        /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the gear or mesh: given, balanced or a node of the network, and `temperature_offset`",
-        /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
-        /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
-        /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+        ..oil from "the oil of the gear or mesh",
         /// Flow of the nozzle that the model names. [l/min]
         injected: 2.0 in 0.0..=100.0 from "the oil network",
     } laws {
-        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
         "dip = tip_dip minus the addendum" {
             dip: |at| at.part.gear.dip_of(at.tip_dip),
             tip_dip: |at| at.part.gear.tip_dip_of(at.dip),

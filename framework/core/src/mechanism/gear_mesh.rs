@@ -12,8 +12,8 @@ use crate::geometry::{Pair, PairFault, PairSpec};
 use crate::loss::{Loss, Term, Undefined};
 use crate::lubricant::Lubricant;
 use crate::material::{Elastic, Material, reduced_modulus};
-use crate::mechanism::Mechanism;
 use crate::mechanism::mesh_law::mesh_laws;
+use crate::mechanism::{Mechanism, described_as};
 use crate::real::{Mask as _, Real};
 use crate::{answered_by, context};
 
@@ -243,17 +243,7 @@ impl MeshPart {
     }
 }
 
-impl JsonSchema for MeshPart {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        PairEntry::schema_name()
-    }
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        PairEntry::json_schema(generator)
-    }
-}
+described_as!(MeshPart, PairEntry);
 
 impl TryFrom<PairEntry> for MeshPart {
     type Error = String;
@@ -304,30 +294,13 @@ context! {
         speed: 3000.0 in -30000.0..=30000.0 from "kinematics",
         /// One if the first gear drives, zero if the second does. [-]
         first_drives: 1.0 in 0.0..=1.0 from "the direction of the power flow",
-        /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network, and `temperature_offset`",
-        /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
-        /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
-        /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
-        /// Pressure-viscosity coefficient of the oil. [1/GPa]
-        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative decrease of the oil's viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
-        /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
-        /// Lubricant factor of mean mesh friction stated for the oil. [-]
-        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
+        ..oil of contacts from "the oil of the mesh",
         /// One if a thermal network provides the gear temperatures, zero if the model computes them. [-]
         bodies_known: 0.0 in 0.0..=1.0 from "the thermal network",
         /// Body temperature of the first gear, if known. [degC]
         temperature_1: 80.0 in -40.0..=200.0 from "the node of the first gear",
         /// Body temperature of the second gear, if known. [degC]
         temperature_2: 80.0 in -40.0..=200.0 from "the node of the second gear",
-    } laws {
-        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
     }
 }
 

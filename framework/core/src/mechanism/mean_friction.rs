@@ -2,7 +2,7 @@
 
 use crate::loss::{Notes, Undefined};
 use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart};
-use crate::mechanism::{Answers, Mechanism, Scalar};
+use crate::mechanism::{Answers, Mechanism, Scalar, with_oil};
 use crate::real::{Dual, Lane, Points as _, Real};
 use crate::{answered_by, context};
 
@@ -77,14 +77,7 @@ context! {
         ra: 0.4 in 0.01..=5.0 from "`surface.ra` of both gears",
         /// Root mean square roughness of both flanks together. [um]
         rq: 0.707 in 0.01..=5.0 from "`surface.rq` of both gears",
-        /// Temperature of the oil. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh: given, balanced or a node of the network, and `temperature_offset`",
-        /// Kinematic viscosity of the oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
-        /// Dynamic viscosity of the oil. [mPa s]
-        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
-        /// Density of the oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
+        ..oil from "the oil of the mesh",
         /// Pressure-viscosity coefficient of the oil. [1/GPa]
         alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
         /// Relative decrease of the oil's viscosity with temperature. [1/K]
@@ -94,7 +87,6 @@ context! {
         /// Lubricant factor stated for the oil. [-]
         x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
     } laws {
-        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
         "normal_force = line_load facewidth/cos beta_b" {
             normal_force: |at| at.line_load * at.part.pair.line_length(),
             line_load: |at| at.normal_force / at.part.pair.line_length(),
@@ -133,7 +125,7 @@ impl<'a, R: Real> MeanFrictionAt<'a, R> {
         } else {
             [tangential / pair.facewidth, normal_force / pair.line_length()]
         };
-        Self {
+        with_oil!(of contacts from at, Self {
             part,
             line_load,
             normal_force,
@@ -144,16 +136,8 @@ impl<'a, R: Real> MeanFrictionAt<'a, R> {
             radius: R::constant(pair.pitch_radius),
             ra: R::constant(part.ra),
             rq: R::constant(part.rq),
-            temperature: at.temperature,
-            nu: at.nu,
-            eta: at.eta,
-            rho: at.rho,
-            alpha: at.alpha,
-            beta: at.beta,
-            conductivity: at.conductivity,
-            x_l: at.x_l,
             notes,
-        }
+        })
     }
 }
 

@@ -2,10 +2,8 @@
 
 use crate::contact::{Film, thermal_terms};
 use crate::loss::{Notes, Undefined};
-use crate::mechanism::Scalar;
-use crate::mechanism::Slot;
 use crate::mechanism::mean_friction::{MeanFrictionAt, hertz, load_at, modulus_at, radius_at};
-use crate::mechanism::{Answers, Inputs as _, Mechanism, NoPart};
+use crate::mechanism::{Answers, Inputs as _, Mechanism, NoPart, Scalar, Slot, with_oil};
 use crate::real::{Dual, Lane, Mask as _, Points, Real};
 use crate::{answered_by, context};
 
@@ -487,7 +485,7 @@ impl<'a, R: Real> PathAt<'a, R> {
         mean: &'a MeanFrictionAt<'a, R>,
         notes: Notes<'a, R>,
     ) -> Self {
-        PathAt {
+        with_oil!(of contacts from mean, PathAt {
             nodes,
             extent,
             speed: mean.speed,
@@ -496,18 +494,10 @@ impl<'a, R: Real> PathAt<'a, R> {
             length: mean.part.pair.line_length(),
             ra: mean.ra,
             rq: mean.rq,
-            temperature: mean.temperature,
-            nu: mean.nu,
-            eta: mean.eta,
-            rho: mean.rho,
-            alpha: mean.alpha,
-            beta: mean.beta,
-            conductivity: mean.conductivity,
-            x_l: mean.x_l,
             bodies: None,
             mean,
             notes,
-        }
+        })
     }
 
     /// The same with some quantities changed.
@@ -542,7 +532,7 @@ impl<'a, R: Real> PathAt<'a, R> {
     /// One point of the path as a contact.
     #[inline(always)]
     pub fn contact(&self, node: &PathNode) -> ContactAt<'a, R> {
-        let mut at = ContactAt {
+        let mut at = with_oil!(of contacts from self, ContactAt {
             part: &NoPart {},
             sliding: R::ZERO,
             sum_speed: R::ZERO,
@@ -553,17 +543,9 @@ impl<'a, R: Real> PathAt<'a, R> {
             length: R::constant(self.length),
             ra: self.ra,
             rq: self.rq,
-            temperature: self.temperature,
-            nu: self.nu,
-            eta: self.eta,
-            rho: self.rho,
-            alpha: self.alpha,
-            beta: self.beta,
-            conductivity: self.conductivity,
-            x_l: self.x_l,
             // Each point has its own velocities.
             notes: self.notes.forgetting(),
-        };
+        });
         self.move_to(&mut at, node, self.unit_pressure());
         at
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::description::lubricant::LubricantKind;
 use crate::geometry::{Holding, WormPair, WormProfile, WormSpec};
 use crate::loss::{Loss, Term, Undefined};
-use crate::mechanism::{Answers, Mechanism, Scalar};
+use crate::mechanism::{Answers, Mechanism, Scalar, described_as};
 use crate::real::{Dual, Lane, Points as _, Real};
 use crate::{answered_by, context};
 
@@ -259,17 +259,7 @@ impl TryFrom<WormEntry> for WormPart {
     }
 }
 
-impl JsonSchema for WormPart {
-    fn inline_schema() -> bool {
-        true
-    }
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        WormEntry::schema_name()
-    }
-    fn json_schema(generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
-        WormEntry::json_schema(generator)
-    }
-}
+described_as!(WormPart, WormEntry);
 
 context! {
     /// All inputs of a model of worm drives.

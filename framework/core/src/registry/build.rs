@@ -440,6 +440,24 @@ impl<'a> Build<'a> {
         self.slot_beside(path, part, value)
     }
 
+    /// Builds the model of an entry at a path, which is in its `model`; `none` if it states none.
+    ///
+    /// # Errors
+    /// If the model cannot be built.
+    pub fn model_of<M: Mechanism>(
+        &mut self,
+        path: &str,
+        part: &Arc<M::Part>,
+        model: Option<&ModelRef<M>>,
+    ) -> Result<Slot<M>, Diagnostic> {
+        let none = Value::from("none");
+        self.slot_at(
+            [path, ".model"].concat().as_str(),
+            part,
+            model.map_or(&none, |model| &model.value),
+        )
+    }
+
     /// Builds a nested model at a path, for a part of another mechanism.
     ///
     /// # Errors

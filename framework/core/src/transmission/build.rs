@@ -44,7 +44,7 @@ use crate::mechanism::gear_mesh::{GearMesh, MeshOil, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::mechanism::seal::Seal;
 use crate::mechanism::worm_mesh::{Described, WormMesh, WormPart};
-use crate::mechanism::{Component as _, Mechanism, ModelRef};
+use crate::mechanism::{Component as _, Mechanism};
 use crate::registry::{Build, Files, Instance, Memory};
 use crate::resolve::{Resolved, ValueSource};
 use crate::thermal::Housing;
@@ -960,16 +960,9 @@ fn mesh_models(
         let Some(written) = id.and_then(|id| frame.entry.meshes.get(id)) else {
             continue;
         };
-        let none = ModelRef::<GearMesh>::new("none".into());
-        let choice = written.model.as_ref().unwrap_or(&none);
-        let common = Common {
-            lubricant: written.lubricant.clone(),
-            temperature_offset: written.temperature_offset,
-            loss_factor: written.loss_factor,
-            ..Common::default()
-        };
+        let common = Common::from(&written.common);
         let oil = oils.oil(&seat.path, &common);
-        let materials = materials_of(&frame.gears, seat.gears, written.elastic_modulus, written.poisson);
+        let materials = materials_of(&frame.gears, seat.gears, written.metal);
         let part = MeshPart::of_materials(teeth.pair, seat.ra, seat.rq, materials);
         let gears = [0, 1].map(|i| frame.entry.gears.get(&written.gears[i]));
         let flanks = gears.map(|gear| gear.and_then(|gear| gear.modification).unwrap_or_default());
@@ -978,25 +971,25 @@ fn mesh_models(
         let part = part.leaning(lean.constant, lean.per_line_load);
         let part = part.with_bores(gears.map(|gear| gear.and_then(|gear| gear.bore)));
         let part = build.part_again(&seat.path, part.with_oil(oil.and_then(|oil| oils.lubricant(oil))));
-        match build.slot_at::<GearMesh>(&[&seat.path, ".model"].concat(), &part, &choice.value) {
+        match build.model_of(&seat.path, &part, written.model.as_ref()) {
             Ok(model) => {
                 parts.push(PartInfo {
                     path: seat.path.clone(),
                     mechanism: GearMesh::KEY,
                     kind: PartKind::Mesh(i),
                     count: seat.count,
-                    loss_factor: written.loss_factor,
+                    loss_factor: common.loss_factor,
                     notes: model.notes,
                 });
                 models.push(MeshModel {
                     bodies: None,
-                    loss_factor: written.loss_factor,
+                    loss_factor: common.loss_factor,
                     sharing: planet_sharing::of_mesh(i, seat, &frame.sharing),
                     force_per_multiplier: force_per_multiplier(seat),
                     seat: seat.clone(),
                     law: MeshLaw::Cylindrical { part, model },
                     oil: oil.unwrap_or(0),
-                    greased: frame.entry.is_greased(written.lubricant.as_deref()),
+                    greased: frame.entry.is_greased(common.lubricant.as_deref()),
                 });
             }
             Err(error) => found.push(error),
@@ -1010,23 +1003,15 @@ fn force_per_multiplier(seat: &MeshSeat) -> f64 {
     f64::from(seat.z()[0]) / (seat.count * seat.radius())
 }
 
-/// What the entries of all meshes on axes that cross state alike: oil, its temperature offset, factor on the loss.
-fn crossed_common<'e>(entry: &'e GearboxEntry, path: &str) -> Option<(&'e Option<String>, f64, f64)> {
+/// What the entry of a mesh on axes that cross states as all meshes do.
+fn crossed_common(entry: &GearboxEntry, path: &str) -> Option<Common> {
     let (section, id) = path.split_once('.')?;
-    Some(match section {
-        "bevel_meshes" => {
-            let own = entry.bevel_meshes.get(id)?;
-            (&own.lubricant, own.temperature_offset, own.loss_factor)
-        }
-        "worm_meshes" => {
-            let own = entry.worm_meshes.get(id)?;
-            (&own.lubricant, own.temperature_offset, own.loss_factor)
-        }
-        _ => {
-            let own = entry.crossed_helical_meshes.get(id)?;
-            (&own.lubricant, own.temperature_offset, own.loss_factor)
-        }
-    })
+    let common = match section {
+        "bevel_meshes" => &entry.bevel_meshes.get(id)?.common,
+        "worm_meshes" => &entry.worm_meshes.get(id)?.common,
+        _ => &entry.crossed_helical_meshes.get(id)?.common,
+    };
+    Some(common.into())
 }
 
 /// The law of a mesh with the key of its mechanism.
@@ -1042,14 +1027,8 @@ fn crossed_model(
     parts: &mut Vec<PartInfo>,
 ) -> Result<Option<MeshModel>, Diagnostic> {
     let entry = &frame.entry;
-    let Some((lubricant, temperature_offset, loss_factor)) = crossed_common(entry, &seat.path) else {
+    let Some(common) = crossed_common(entry, &seat.path) else {
         return Ok(None);
-    };
-    let common = Common {
-        lubricant: lubricant.clone(),
-        temperature_offset,
-        loss_factor,
-        ..Common::default()
     };
     let Some(oil) = oils.oil(&seat.path, &common) else {
         return Ok(None);
@@ -1070,18 +1049,18 @@ fn crossed_model(
         mechanism,
         kind: PartKind::Mesh(number),
         count: seat.count,
-        loss_factor,
+        loss_factor: common.loss_factor,
         notes: law.notes(),
     });
     Ok(Some(MeshModel {
         bodies: None,
-        loss_factor,
+        loss_factor: common.loss_factor,
         sharing: None,
         force_per_multiplier: force_per_multiplier(seat),
         seat: seat.clone(),
         law,
         oil,
-        greased: entry.is_greased(lubricant.as_deref()),
+        greased: entry.is_greased(common.lubricant.as_deref()),
     }))
 }
 
@@ -1101,12 +1080,10 @@ fn bevel_law(
     let surfaces = FlankSurfaces {
         ra: seat.ra,
         rq: seat.rq,
-        materials: materials_of(&frame.gears, seat.gears, written.elastic_modulus, written.poisson),
+        materials: materials_of(&frame.gears, seat.gears, written.metal),
     };
     let part = build.part_again(&seat.path, BevelPart::new(pair, surfaces, oil.as_ref()));
-    let none = ModelRef::<BevelMesh>::new("none".into());
-    let choice = written.model.as_ref().unwrap_or(&none);
-    let model = build.slot_at::<BevelMesh>(&[&seat.path, ".model"].concat(), &part, &choice.value)?;
+    let model = build.model_of(&seat.path, &part, written.model.as_ref())?;
     Ok(Some((BevelMesh::KEY, MeshLaw::Bevel { part, model })))
 }
 
@@ -1134,9 +1111,7 @@ fn worm_law(
         described: frame.described[seat.members[0]].with(frame.described[seat.members[1]]),
     };
     let part = build.part_again(&seat.path, part);
-    let none = ModelRef::<WormMesh>::new("none".into());
-    let choice = written.model.as_ref().unwrap_or(&none);
-    let model = build.slot_at::<WormMesh>(&[&seat.path, ".model"].concat(), &part, &choice.value)?;
+    let model = build.model_of(&seat.path, &part, written.model.as_ref())?;
     Ok(Some((WormMesh::KEY, MeshLaw::Worm { part, model })))
 }
 
@@ -1157,7 +1132,7 @@ fn crossed_helical_law(
         &teeth.cones,
         (written.pressure_angle, tips),
         [seat.ra, seat.rq],
-        materials_of(&frame.gears, seat.gears, written.elastic_modulus, written.poisson),
+        materials_of(&frame.gears, seat.gears, written.metal),
     );
     let mut part = part.map_err(|faults| {
         let message = faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
@@ -1167,9 +1142,7 @@ fn crossed_helical_law(
     })?;
     part.flanks = part.flanks.with_oil(oil);
     let part = build.part_again(&seat.path, part);
-    let none = ModelRef::<CrossedHelicalMesh>::new("none".into());
-    let choice = written.model.as_ref().unwrap_or(&none);
-    let model = build.slot_at::<CrossedHelicalMesh>(&[&seat.path, ".model"].concat(), &part, &choice.value)?;
+    let model = build.model_of(&seat.path, &part, written.model.as_ref())?;
     Ok(Some((CrossedHelicalMesh::KEY, MeshLaw::CrossedHelical { part, model })))
 }
 

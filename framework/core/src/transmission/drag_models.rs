@@ -57,12 +57,7 @@ impl Drags<'_, '_, '_> {
         for (number, mesh) in self.meshes.iter().enumerate() {
             let id = mesh.path.strip_prefix("meshes.");
             if let Some(written) = id.and_then(|id| self.entry.meshes.get(id)) {
-                let common = Common {
-                    lubricant: written.lubricant.clone(),
-                    temperature_offset: written.temperature_offset,
-                    ..Common::default()
-                };
-                if let Some(place) = self.on_mesh(number, mesh, common) {
+                if let Some(place) = self.on_mesh(number, mesh, (&written.common).into()) {
                     self.add(written.drag.as_ref(), &place);
                 }
             }
@@ -112,12 +107,11 @@ impl Drags<'_, '_, '_> {
                 mates: [mates(i, self.meshes), Vec::new()],
                 count: if revolves { mesh.count } else { 1.0 },
             },
-            common: Common {
-                lubricant: written.lubricant.clone(),
-                temperature_offset: written.temperature_offset,
-                loss_factor: written.loss_factor,
-                count: 1,
-            },
+            common: Common::of(
+                written.lubricant.as_ref(),
+                written.temperature_offset,
+                written.loss_factor,
+            ),
             number: i,
         })
     }

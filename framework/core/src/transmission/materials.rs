@@ -53,24 +53,21 @@ pub(super) fn of_gears(
 /// Reports modulus and Poisson's ratio of a mesh both of whose gears name their material.
 fn without_effect(entry: &GearboxEntry) -> impl Iterator<Item = Diagnostic> + '_ {
     let meshes = entry.meshes.iter();
-    let meshes = meshes.map(|(id, m)| (format!("meshes.{id}"), &m.gears, m.elastic_modulus, m.poisson));
+    let meshes = meshes.map(|(id, m)| (format!("meshes.{id}"), &m.gears, m.metal));
     let bevel = entry.bevel_meshes.iter();
-    let bevel = bevel.map(|(id, m)| (format!("bevel_meshes.{id}"), &m.gears, m.elastic_modulus, m.poisson));
+    let bevel = bevel.map(|(id, m)| (format!("bevel_meshes.{id}"), &m.gears, m.metal));
     let crossed = entry.crossed_helical_meshes.iter();
-    let crossed = crossed.map(|(id, m)| {
-        let path = format!("crossed_helical_meshes.{id}");
-        (path, &m.gears, m.elastic_modulus, m.poisson)
-    });
+    let crossed = crossed.map(|(id, m)| (format!("crossed_helical_meshes.{id}"), &m.gears, m.metal));
     let named = |gears: &[String; 2]| {
         let has = |gear: &String| entry.gears.get(gear).is_some_and(|gear| gear.material.is_some());
         gears.iter().all(has)
     };
     let all = meshes.chain(bevel).chain(crossed);
     all.filter(move |(_, gears, ..)| named(gears))
-        .flat_map(|(path, _, modulus, poisson)| {
+        .flat_map(|(path, _, metal)| {
             let keys = [
-                ("elastic_modulus", modulus != steel()),
-                ("poisson", poisson != steel_poisson()),
+                ("elastic_modulus", metal.elastic_modulus != steel()),
+                ("poisson", metal.poisson != steel_poisson()),
             ];
             let stated = keys.into_iter().filter(|(_, stated)| *stated);
             stated.map(move |(key, _)| {

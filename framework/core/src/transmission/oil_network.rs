@@ -234,12 +234,11 @@ impl Names<'_, '_> {
     }
 
     fn oil(&self, path: &str, oils: &mut OilNumbers<'_>) -> Option<u16> {
-        let common = Common {
-            lubricant: self.network.lubricant.clone(),
-            temperature_offset: self.network.temperature_offset,
-            ..Common::default()
-        };
-        oils.oil(path, &common)
+        let network = self.network;
+        oils.oil(
+            path,
+            &Common::of(network.lubricant.as_ref(), network.temperature_offset, 1.0),
+        )
     }
 
     /// An end by its name; `None` and reported if it is unknown. The chamber, by its place in the order in which they drain.

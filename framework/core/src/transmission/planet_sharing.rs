@@ -565,7 +565,7 @@ fn floating(
 fn mesh_stiffness(entry: &GearboxEntry, gears: &[GearSeat], seat: &MeshSeat) -> Option<f64> {
     let pair = &seat.cylindrical()?.pair;
     let written = entry.meshes.get(seat.path.strip_prefix("meshes.")?)?;
-    let materials = materials_of(gears, seat.gears, written.elastic_modulus, written.poisson);
+    let materials = materials_of(gears, seat.gears, written.metal);
     let mean = 0.75 * pair.contact_ratio + 0.25;
     let stiffness = single_stiffness(pair, materials.map(|material| material.elastic)) * mean * pair.facewidth;
     (pair.involute && stiffness.is_finite() && stiffness > 0.0).then_some(stiffness)

@@ -11,10 +11,9 @@ use crate::description::GearboxEntry;
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::loss::{Loss, NoteBase, Notebook, Notes, Undefined};
-use crate::mechanism::Answers;
 use crate::mechanism::gear_drag::Covers;
 use crate::mechanism::planetary_drag::{PlanetaryDrag, PlanetaryDragAt, PlanetaryPart};
-use crate::mechanism::{ModelRef, Slot};
+use crate::mechanism::{Answers, Slot, with_oil};
 use crate::real::{Dual, Lane, Points};
 use crate::registry::{Build, Placed, Sealed};
 
@@ -34,21 +33,17 @@ impl PlacedDrag {
         let oil = state.oil(&self.spot);
         let part = &*self.part;
         // Models do not use quantities that the part does not state: building it has rejected that.
-        PlanetaryDragAt {
+        with_oil!(from oil, PlanetaryDragAt {
             part,
             speed,
             carrier_speed,
             planet_speed,
             volume: R::constant(part.oil_volume.unwrap_or(0.0)),
             level: state.level_at_rest(self.spot.level).level.at_least(-10.0),
-            temperature: oil.temperature,
-            nu: oil.nu,
-            eta: oil.eta,
-            rho: oil.rho,
             size: R::constant(part.size.unwrap_or(0.0)),
             ratio: R::constant(part.ratio.unwrap_or(0.0)),
             notes,
-        }
+        })
     }
 }
 
@@ -155,15 +150,8 @@ pub fn models(
             has_level: oils.has_level(),
         };
         let part = build.part_again(&path, part);
-        let common = Common {
-            lubricant: set.lubricant.clone(),
-            temperature_offset: set.temperature_offset,
-            loss_factor: set.loss_factor,
-            ..Common::default()
-        };
-        let none = ModelRef::new("none".into());
-        let choice = set.model.as_ref().unwrap_or(&none);
-        let model = match build.slot_at::<PlanetaryDrag>(&format!("{path}.model"), &part, &choice.value) {
+        let common = Common::of(set.lubricant.as_ref(), set.temperature_offset, set.loss_factor);
+        let model = match build.model_of::<PlanetaryDrag>(&path, &part, set.model.as_ref()) {
             Ok(model) => model,
             Err(error) => {
                 found.push(error);

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::crossed::CrossedTeeth;
 use super::members::Members;
+use crate::description::MeshMetal;
 use crate::geometry::Pair;
 use crate::material::Material;
 
@@ -31,12 +32,9 @@ pub struct GearSeat {
 }
 
 /// The materials of two gears; of one that names none a metal of the mesh's modulus (Pa) and Poisson's ratio.
-pub(crate) fn materials_of(gears: &[GearSeat], pair: [usize; 2], modulus: f64, poisson: f64) -> [Material; 2] {
-    pair.map(|gear| {
-        gears[gear]
-            .material
-            .unwrap_or_else(|| Material::metal(modulus, poisson))
-    })
+pub(crate) fn materials_of(gears: &[GearSeat], pair: [usize; 2], metal: MeshMetal) -> [Material; 2] {
+    let of_mesh = || Material::metal(metal.elastic_modulus, metal.poisson);
+    pair.map(|gear| gears[gear].material.unwrap_or_else(of_mesh))
 }
 
 /// A mesh with its members; SI.

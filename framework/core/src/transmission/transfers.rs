@@ -395,13 +395,12 @@ pub(crate) fn models(
     for seat in seats {
         let (section, id) = seat.path.split_once('.').unwrap_or_default();
         let path = seat.path.clone();
-        let slot = format!("{path}.model");
         let (law, oil, loss_factor) = match section {
             "chains" => {
                 let Some(chain) = entry.chains.get(id) else { continue };
                 let oil = oils.oil(&path, &of_chain(chain));
                 let part = build.part_again(&path, chain.part());
-                let model = build.slot_at::<Chain>(&slot, &part, &choice(chain.model.as_ref()));
+                let model = build.model_of(&path, &part, chain.model.as_ref());
                 (
                     model.map(|model| TransferLaw::Chain(part, model)),
                     oil,
@@ -415,7 +414,7 @@ pub(crate) fn models(
                     angle: joint.angle,
                 };
                 let part = build.part_again(&path, part);
-                let model = build.slot_at::<Joint>(&slot, &part, &choice(joint.model.as_ref()));
+                let model = build.model_of(&path, &part, joint.model.as_ref());
                 (
                     model.map(|model| TransferLaw::Joint(part, model)),
                     None,
@@ -428,7 +427,7 @@ pub(crate) fn models(
                 };
                 let oil = oils.oil(&path, &of_differential(own));
                 let part = build.part_again(&path, DifferentialPart { gears: own.gears });
-                let model = build.slot_at::<Differential>(&slot, &part, &choice(own.model.as_ref()));
+                let model = build.model_of(&path, &part, own.model.as_ref());
                 let law = model.map(|model| TransferLaw::Differential(part, model));
                 (law, oil, own.loss_factor)
             }
@@ -458,27 +457,16 @@ pub(crate) fn models(
     transfers
 }
 
-/// The choice of a model; `none` if there is none.
-fn choice<M: Mechanism>(model: Option<&ModelRef<M>>) -> serde_json::Value {
-    model.map_or_else(|| "none".into(), |model| model.value.clone())
-}
-
 fn of_chain(chain: &ChainEntry) -> Common {
-    Common {
-        lubricant: chain.lubricant.clone(),
-        temperature_offset: chain.temperature_offset,
-        loss_factor: chain.loss_factor,
-        ..Common::default()
-    }
+    Common::of(chain.lubricant.as_ref(), chain.temperature_offset, chain.loss_factor)
 }
 
 fn of_differential(differential: &DifferentialEntry) -> Common {
-    Common {
-        lubricant: differential.lubricant.clone(),
-        temperature_offset: differential.temperature_offset,
-        loss_factor: differential.loss_factor,
-        ..Common::default()
-    }
+    Common::of(
+        differential.lubricant.as_ref(),
+        differential.temperature_offset,
+        differential.loss_factor,
+    )
 }
 
 /// Friction between the sides of a differential that does not depend on torque.

@@ -15,11 +15,23 @@ use gearloss_studies::register_export;
 use super::missed;
 use super::slabs::GridTable;
 
-register_export!(Fmu2);
-register_export!(Fmu3);
+register_export!(OfVersion {
+    version: Version::Two,
+    name: "fmu2",
+    meaning: "Losses, efficiency and output over speed, torque, gear and oil temperature as a Functional Mock-up Unit of FMI 2.0, for \
+              Co-Simulation and Model Exchange.",
+});
+register_export!(OfVersion {
+    version: Version::Three,
+    name: "fmu3",
+    meaning: "As `fmu2`, of FMI 3.0.",
+});
 
-struct Fmu2;
-struct Fmu3;
+struct OfVersion {
+    version: Version,
+    name: &'static str,
+    meaning: &'static str,
+}
 
 /// Names and meanings of the shares of the loss, in the order of the usual sums.
 const SHARES: [(&str, &str); 6] = [
@@ -33,14 +45,13 @@ const SHARES: [(&str, &str); 6] = [
 /// Number of points of the reference experiment.
 const REFERENCES: usize = 61;
 
-impl ExportFormat for Fmu2 {
+impl ExportFormat for OfVersion {
     fn name(&self) -> &'static str {
-        "fmu2"
+        self.name
     }
 
     fn meaning(&self) -> &'static str {
-        "Losses, efficiency and output over speed, torque, gear and oil temperature as a Functional Mock-up Unit of FMI 2.0, for \
-         Co-Simulation and Model Exchange."
+        self.meaning
     }
 
     fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
@@ -60,37 +71,7 @@ impl ExportFormat for Fmu2 {
     }
 
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
-        file(map, Version::Two)
-    }
-}
-
-impl ExportFormat for Fmu3 {
-    fn name(&self) -> &'static str {
-        "fmu3"
-    }
-
-    fn meaning(&self) -> &'static str {
-        "As `fmu2`, of FMI 3.0."
-    }
-
-    fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
-        GridTable::fit(axes)
-    }
-
-    fn has_library(&self) -> bool {
-        true
-    }
-
-    fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
-        Ok(())
-    }
-
-    fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
-        of_set(map)
-    }
-
-    fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
-        file(map, Version::Three)
+        file(map, self.version)
     }
 }
 

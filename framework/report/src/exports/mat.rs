@@ -3,10 +3,10 @@
 //! Source: MathWorks, MAT-File Format, level 5: header of 128 bytes, then a matrix of doubles for each variable, little-endian, each part
 //! aligned to eight bytes, columns first.
 
-use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOf, MapOfSet, Refusal};
+use gearloss_studies::analyses::map::{ExportFile, ExportFormat, ExportMap, LossGrid, Refusal};
 use gearloss_studies::register_export;
 
-use super::slabs::{GridTable, Slab, UNIT};
+use super::slabs::{GridTable, Slab, UNIT, of_all_maps};
 
 register_export!(Mat);
 
@@ -17,21 +17,11 @@ impl ExportFormat for Mat {
         "mat"
     }
 
-    fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
-        Ok(())
-    }
-
     fn meaning(&self) -> &'static str {
         "The vectors of `matlab` as a MAT-file, with the oil temperature of each point if it follows from a heat balance."
     }
 
-    fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
-        GridTable::fit(axes)
-    }
-
-    fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
-        map.siblings.clone()
-    }
+    of_all_maps!();
 
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
         if map.number > 1 {

@@ -2,10 +2,10 @@
 //!
 //! Source: documentation of the Powertrain Blockset's block Gearbox.
 
-use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOf, MapOfSet, Refusal};
+use gearloss_studies::analyses::map::{ExportFile, ExportFormat, ExportMap, LossGrid, Refusal};
 use gearloss_studies::register_export;
 
-use super::slabs::{GridTable, Slab, UNIT};
+use super::slabs::{GridTable, Slab, UNIT, of_all_maps};
 
 register_export!(Matlab);
 
@@ -16,22 +16,12 @@ impl ExportFormat for Matlab {
         "matlab"
     }
 
-    fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
-        Ok(())
-    }
-
     fn meaning(&self) -> &'static str {
         "Efficiency and loss torque over torque, speed and, if several were computed, oil temperature, as a script with the vectors \
          of Simulink's gearbox blocks."
     }
 
-    fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
-        GridTable::fit(axes)
-    }
-
-    fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
-        map.siblings.clone()
-    }
+    of_all_maps!();
 
     /// All temperatures of one table are in one file.
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {

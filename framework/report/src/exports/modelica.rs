@@ -3,11 +3,11 @@
 //! Source: documentation of `Modelica.Blocks.Tables.CombiTable2Ds`: first line `#1`, then `double name(rows,columns)` and the rows; the
 //! first column has the first input, the first row the second one.
 
-use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOf, MapOfSet, Refusal};
+use gearloss_studies::analyses::map::{ExportFile, ExportFormat, ExportMap, LossGrid, Refusal};
 use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::register_export;
 
-use super::slabs::{GridTable, Slab, UNIT};
+use super::slabs::{GridTable, Slab, UNIT, of_all_maps};
 
 register_export!(Modelica);
 
@@ -18,22 +18,12 @@ impl ExportFormat for Modelica {
         "modelica"
     }
 
-    fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
-        Ok(())
-    }
-
     fn meaning(&self) -> &'static str {
         "Loss torque and loss over torque and speed for `CombiTable2Ds` of the Modelica Standard Library, one table for each oil \
          temperature, and the no-load loss over speed and oil temperature."
     }
 
-    fn fits(&self, axes: &Axes) -> Result<(), Refusal> {
-        GridTable::fit(axes)
-    }
-
-    fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
-        map.siblings.clone()
-    }
+    of_all_maps!();
 
     fn file(&self, map: &ExportMap<'_>) -> Result<Option<ExportFile>, Refusal> {
         if map.number > 1 {

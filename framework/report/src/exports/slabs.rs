@@ -3,6 +3,24 @@
 use gearloss_studies::analyses::map::{Axes, ExportMap, LossAt, LossGrid, MapOf, MapOfSet, Refusal};
 use gearloss_studies::analyses::numbers::tidy;
 
+/// What formats have in common whose file contains all maps of a [`GridTable`], those of drive units and machines too.
+macro_rules! of_all_maps {
+    () => {
+        fn takes(&self, _of: gearloss_studies::analyses::map::MapOf) -> Result<(), Refusal> {
+            Ok(())
+        }
+
+        fn fits(&self, axes: &gearloss_studies::analyses::map::Axes) -> Result<(), Refusal> {
+            GridTable::fit(axes)
+        }
+
+        fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a gearloss_studies::analyses::map::MapOfSet> {
+            map.siblings.clone()
+        }
+    };
+}
+pub(super) use of_all_maps;
+
 /// Losses at one oil temperature.
 pub struct Slab {
     /// Oil temperature; absent with a heat balance. \[degC\]

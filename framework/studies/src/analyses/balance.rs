@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{Analysis, Built, Engine, Head, Outcome, Planner, Run, Runs, Stopped, gear_of};
+use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Run, Runs, Stopped};
 use crate::points::{Given, Note, notes};
 use crate::register_analysis;
 use crate::study::{Uses, Write};
@@ -21,16 +21,9 @@ use crate::table::Table;
 /// Heat balance of one point: losses and heat over temperature, and every step of the search.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct BalanceEntry {
-    /// Gearbox; default: the first.
-    #[schemars(extend("x-refers-to" = "gearboxes"))]
-    pub gearbox: Option<String>,
-    /// Gear; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
-    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
-    #[serde(default)]
-    #[schemars(extend("x-refers-to" = "model_sets"))]
-    pub model_sets: Vec<String>,
+    /// Gearbox, gear and model sets.
+    #[serde(flatten)]
+    pub chosen: Chosen,
     /// Torque. [Nm]
     #[schemars(range(min = -1e9, max = 1e9))]
     pub torque: f64,
@@ -230,19 +223,19 @@ impl Analysis for BalanceEntry {
     type Outcome = BalanceOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
+        self.chosen.uses()
     }
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<Runs<'a>, Stopped> {
         let path = cx.path();
         let change = |(set_path, value): (&str, &Value)| (set_path.to_owned(), value.clone(), format!("{path}.set"));
         let set: Vec<(String, Value, String)> = self.set.iter().map(change).collect();
-        let built = cx.built_with(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets, &set)?;
+        let built = cx.built_with(cx.gearbox(self.chosen.gearbox.as_ref())?, &self.chosen.model_sets, &set)?;
         let run = |b: &Arc<Built<'a>>| {
             needs_balance(cx, b)?;
             let t = &b.transmission;
             let point = vec![Given::new(self.torque, self.speed)];
-            Run::new(cx, b, cx.listed(t, gear_of(self.gear.as_deref(), t), point))
+            Run::new(cx, b, cx.listed(t, self.chosen.gear(t), point))
         };
         Runs::of_sets(&built, run)
     }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::axes::{axis, speeds, torques};
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Engine, Planner, Stopped, gear_of};
+use super::{Analysis, Built, Chosen, Engine, Planner, Stopped};
 use crate::measured::{Measured, Seen};
 use crate::points::{Given, PointResult};
 use crate::register_analysis;
@@ -21,16 +21,9 @@ pub use self::bars::{
 /// Loss breakdown over speed or torque.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct BreakdownEntry {
-    /// Gearbox; default: the first.
-    #[schemars(extend("x-refers-to" = "gearboxes"))]
-    pub gearbox: Option<String>,
-    /// Gear; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
-    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
-    #[serde(default)]
-    #[schemars(extend("x-refers-to" = "model_sets"))]
-    pub model_sets: Vec<String>,
+    /// Gearbox, gear and model sets.
+    #[serde(flatten)]
+    pub chosen: Chosen,
     /// Grouping of losses.
     #[serde(default)]
     pub by: By,
@@ -73,14 +66,12 @@ impl Analysis for BreakdownEntry {
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .in_gears(&self.gear)
-            .with("measured", self.measured.as_ref())
+        self.chosen.uses().with("measured", self.measured.as_ref())
     }
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<(BarsPlan<'a>, Measured), Stopped> {
         let path = cx.path();
-        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let built = self.chosen.built(cx)?;
         let measured = match &self.measured {
             Some(data) => cx.read_at_ports(&format!("{path}.measured"), data, &[])?,
             None => Measured::default(),
@@ -90,7 +81,7 @@ impl Analysis for BreakdownEntry {
             let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &b.transmission)?;
             let loads = self.loads(cx, &b.transmission, &speeds)?;
             cx.holds(&path, speeds.len(), loads.len())?;
-            let gear = gear_of(self.gear.as_deref(), &b.transmission);
+            let gear = self.chosen.gear(&b.transmission);
             let ratio = ratio(cx, b, gear)?;
             let rows = self.rows(&speeds, &loads, |load, speed| Given {
                 torque: load.torque(ratio * speed),

@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Built, Engine, Head, Outcome, Planner, Run, Runs, Stopped, gear_of};
+use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Run, Runs, Stopped};
 use crate::points::{Given, Note};
 use crate::register_analysis;
 use crate::study::{Uses, Write};
@@ -33,16 +33,9 @@ use crate::table::Table;
 /// Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ContactPathEntry {
-    /// Gearbox; default: the first.
-    #[schemars(extend("x-refers-to" = "gearboxes"))]
-    pub gearbox: Option<String>,
-    /// Gear; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
-    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
-    #[serde(default)]
-    #[schemars(extend("x-refers-to" = "model_sets"))]
-    pub model_sets: Vec<String>,
+    /// Gearbox, gear and model sets.
+    #[serde(flatten)]
+    pub chosen: Chosen,
     /// Mesh, one of `meshes` or `bevel_meshes`.
     #[schemars(extend("x-refers-to" = ["meshes", "bevel_meshes"]))]
     pub mesh: String,
@@ -298,17 +291,17 @@ impl Analysis for ContactPathEntry {
     type Outcome = ContactPathOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
+        self.chosen.uses()
     }
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<ContactPathPlan<'a>, Stopped> {
-        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let built = self.chosen.built(cx)?;
         let meshes = built.iter().map(|b| self.mesh(cx, &b.transmission));
         let meshes = meshes.collect::<Result<_, _>>()?;
         let runs = Runs::of_sets(&built, |b| {
             let t = &b.transmission;
             let point = vec![Given::new(self.torque, self.speed)];
-            Run::without_limits(cx, b, cx.listed(t, gear_of(self.gear.as_deref(), t), point))
+            Run::without_limits(cx, b, cx.listed(t, self.chosen.gear(t), point))
         })?;
         Ok((runs, meshes))
     }

@@ -12,7 +12,7 @@ use super::limits::at_points::LimitColumn;
 use super::numbers::{RPM, tidy};
 use super::rows::{RowsPlan, Solved};
 use super::shares::{Shares, together};
-use super::{Analysis, Built, Engine, Head, Outcome, Planner, Stopped};
+use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Stopped};
 use crate::measured::{ListedPoint, Measured, Row};
 use crate::points::{Note, PointResult, UnitPoint};
 use crate::register_analysis;
@@ -22,16 +22,9 @@ use crate::table::Table;
 /// Losses of a list of operating points, written here or in a file, as stacked bars with measured values.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct OperatingPointsEntry {
-    /// Gearbox; default: the first.
-    #[schemars(extend("x-refers-to" = "gearboxes"))]
-    pub gearbox: Option<String>,
-    /// Gear; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
-    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
-    #[serde(default)]
-    #[schemars(extend("x-refers-to" = "model_sets"))]
-    pub model_sets: Vec<String>,
+    /// Gearbox, gear and model sets.
+    #[serde(flatten)]
+    pub chosen: Chosen,
     /// The points, instead of `data`.
     #[serde(default)]
     pub points: Vec<ListedPoint>,
@@ -175,17 +168,14 @@ impl Analysis for OperatingPointsEntry {
     type Outcome = OperatingPointsOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets)
-            .in_gears(&self.gear)
-            .bind(&self.bind)
-            .with("data", self.data.as_ref())
+        self.chosen.uses().bind(&self.bind).with("data", self.data.as_ref())
     }
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<RowsPlan<'a>, Stopped> {
-        let gearbox = cx.gearbox(self.gearbox.as_ref())?;
+        let gearbox = cx.gearbox(self.chosen.gearbox.as_ref())?;
         let listed = self.listed(cx)?;
-        let (gear, terms) = (self.gear.as_deref(), self.by == By::Term);
-        RowsPlan::new(cx, gearbox, &self.model_sets, (listed, &self.bind), gear, terms)
+        let (gear, terms) = (self.chosen.gear.as_deref(), self.by == By::Term);
+        RowsPlan::new(cx, gearbox, &self.chosen.model_sets, (listed, &self.bind), gear, terms)
     }
 
     fn reduce<'a>(&'a self, plan: RowsPlan<'a>, engine: &Engine<'a>) -> Result<OperatingPointsOutcome, Stopped> {

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::axes::{axis, speeds, torques};
 use super::breakdown::{Along, As, BarsPlan, BreakdownOutcome, Common, RowOfBars};
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Engine, Planner, Stopped, gear_of};
+use super::{Analysis, Chosen, Engine, Planner, Stopped};
 use crate::points::Given;
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
@@ -14,16 +14,9 @@ use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
 /// Loss breakdown over oil temperature.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct TemperatureSweepEntry {
-    /// Gearbox; default: the first.
-    #[schemars(extend("x-refers-to" = "gearboxes"))]
-    pub gearbox: Option<String>,
-    /// Gear; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
-    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
-    #[serde(default)]
-    #[schemars(extend("x-refers-to" = "model_sets"))]
-    pub model_sets: Vec<String>,
+    /// Gearbox, gear and model sets.
+    #[serde(flatten)]
+    pub chosen: Chosen,
     /// Grouping of losses.
     #[serde(default)]
     pub by: By,
@@ -49,12 +42,12 @@ impl Analysis for TemperatureSweepEntry {
     type Outcome = BreakdownOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
+        self.chosen.uses()
     }
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<BarsPlan<'a>, Stopped> {
         let path = cx.path();
-        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let built = self.chosen.built(cx)?;
         let given = self.oil_temperature.values();
         let temperatures = axis(cx, &format!("{path}.oil_temperature"), given)?;
         let mut plan = BarsPlan::new(self.by, self.unit, built.clone());
@@ -67,7 +60,7 @@ impl Analysis for TemperatureSweepEntry {
                 .iter()
                 .flat_map(|torque| speeds.iter().map(move |speed| (*torque, *speed)));
             let rows = pairs.map(|(torque, speed)| row(torque, speed, &temperatures));
-            plan.add(cx, b, gear_of(self.gear.as_deref(), t), rows.collect())?;
+            plan.add(cx, b, self.chosen.gear(t), rows.collect())?;
         }
         Ok(plan)
     }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::axes::{speeds, torques};
 use super::balance::needs_balance;
 use super::numbers::{RPM, tidy};
-use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work, gear_of};
+use super::{Analysis, Chosen, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
 use crate::points::{Given, Note, UnitPoint, notes, unit_of};
 use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};
@@ -19,16 +19,9 @@ use crate::table::Table;
 /// The torque, or the speed, at which the heat balance reaches a given temperature.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct ThermalLimitEntry {
-    /// Gearbox; default: the first.
-    #[schemars(extend("x-refers-to" = "gearboxes"))]
-    pub gearbox: Option<String>,
-    /// Gear; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
-    /// Model sets; default: the models of the gearbox. `PRODUCT/SET` selects another gearbox, `PRODUCT/own` its default models.
-    #[serde(default)]
-    #[schemars(extend("x-refers-to" = "model_sets"))]
-    pub model_sets: Vec<String>,
+    /// Gearbox, gear and model sets.
+    #[serde(flatten)]
+    pub chosen: Chosen,
     /// Limits of the oil temperature. [degC]
     #[schemars(inner(range(min = 0.0, max = 250.0)), length(min = 1))]
     pub temperature: Vec<f64>,
@@ -118,15 +111,15 @@ impl Analysis for ThermalLimitEntry {
     type Outcome = ThermalLimitOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
+        self.chosen.uses()
     }
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<ThermalLimitPlan<'a>, Stopped> {
         let path = cx.path();
         let mut searches = Vec::new();
-        for b in cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)? {
+        for b in self.chosen.built(cx)? {
             needs_balance(cx, &b)?;
-            let gear = gear_of(self.gear.as_deref(), &b.transmission);
+            let gear = self.chosen.gear(&b.transmission);
             let torques = torques(cx, &format!("{path}.torque"), &self.torque, &b.transmission)?;
             let speeds = speeds(cx, &format!("{path}.speed"), &self.speed, &b.transmission)?;
             match self.find {

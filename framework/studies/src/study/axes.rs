@@ -146,196 +146,73 @@ impl OfRating {
     }
 }
 
-/// Torques.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum TorqueAxis {
-    /// One torque. [Nm]
-    One(#[schemars(range(min = -1e9, max = 1e9))] f64),
-    /// Several torques. [Nm]
-    List(#[schemars(inner(range(min = -1e9, max = 1e9)), length(min = 1))] Vec<f64>),
-    /// Torques at equal steps.
-    Steps(TorqueSpan),
-    /// Torques as fractions of the rated torque.
-    Rated(OfRating),
-}
-
-/// Torques at equal steps.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub struct TorqueSpan {
-    /// First torque. [Nm]
-    #[schemars(range(min = -1e9, max = 1e9))]
-    pub from: f64,
-    /// Last torque. [Nm]
-    #[schemars(range(min = -1e9, max = 1e9))]
-    pub to: f64,
-    /// Step. [Nm]
-    #[schemars(range(min = -1e9, max = 1e9))]
-    pub step: f64,
-    /// The unit in which all three are written.
-    #[serde(default, rename = "unit of steps", skip_serializing_if = "Option::is_none")]
-    #[schemars(skip)]
-    pub unit: Option<String>,
-}
-
-impl TorqueAxis {
-    /// The torques. \[Nm\]
-    ///
-    /// # Errors
-    /// As [`Span::values`], or if the axis uses fractions of a missing rating.
-    pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, AxisError> {
-        match self {
-            Self::One(torque) => Ok(vec![*torque]),
-            Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new([s.from, s.to, s.step], s.unit.as_deref(), unit("Nm")).values(),
-            Self::Rated(shares) => shares.values(rating),
+/// An axis of a quantity with its unit and the range of its values, and such values at equal steps; one with a `rating` also takes fractions of
+/// it.
+macro_rules! axis {
+    (
+        $Axis:ident, $Span:ident: $All:literal, $all:literal, $one:literal in $unit:literal, steps in $step:literal,
+        $least:literal to $greatest:literal $(, $rating:ident: $fractions:literal)?
+    ) => {
+        #[doc = concat!($All, ".")]
+        #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+        #[serde(untagged)]
+        pub enum $Axis {
+            #[doc = concat!("One ", $one, ". [", $unit, "]")]
+            One(#[schemars(range(min = $least, max = $greatest))] f64),
+            #[doc = concat!("Several ", $all, ". [", $unit, "]")]
+            List(#[schemars(inner(range(min = $least, max = $greatest)), length(min = 1))] Vec<f64>),
+            #[doc = concat!($All, " at equal steps.")]
+            Steps($Span),
+            $(#[doc = $fractions]
+            Rated(OfRating),)?
         }
-    }
 
-    /// True if the axis uses fractions of a rating.
-    pub fn is_rated(&self) -> bool {
-        matches!(self, Self::Rated(_))
-    }
-}
-
-/// Speeds.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum SpeedAxis {
-    /// One speed. [rpm]
-    One(#[schemars(range(min = -1e6, max = 1e6))] f64),
-    /// Several speeds. [rpm]
-    List(#[schemars(inner(range(min = -1e6, max = 1e6)), length(min = 1))] Vec<f64>),
-    /// Speeds at equal steps.
-    Steps(SpeedSpan),
-    /// Speeds as fractions of the rated speed.
-    Rated(OfRating),
-}
-
-/// Speeds at equal steps.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub struct SpeedSpan {
-    /// First speed. [rpm]
-    #[schemars(range(min = -1e6, max = 1e6))]
-    pub from: f64,
-    /// Last speed. [rpm]
-    #[schemars(range(min = -1e6, max = 1e6))]
-    pub to: f64,
-    /// Step. [rpm]
-    #[schemars(range(min = -1e6, max = 1e6))]
-    pub step: f64,
-    /// The unit in which all three are written.
-    #[serde(default, rename = "unit of steps", skip_serializing_if = "Option::is_none")]
-    #[schemars(skip)]
-    pub unit: Option<String>,
-}
-
-impl SpeedAxis {
-    /// The speeds. \[rad/s\]
-    ///
-    /// # Errors
-    /// As [`Span::values`], or if the axis uses fractions of a missing rating.
-    pub fn values(&self, rating: Option<f64>) -> Result<Vec<f64>, AxisError> {
-        match self {
-            Self::One(speed) => Ok(vec![*speed]),
-            Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new([s.from, s.to, s.step], s.unit.as_deref(), unit("rpm")).values(),
-            Self::Rated(shares) => shares.values(rating),
+        #[doc = concat!($All, " at equal steps.")]
+        #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+        pub struct $Span {
+            #[doc = concat!("First ", $one, ". [", $unit, "]")]
+            #[schemars(range(min = $least, max = $greatest))]
+            pub from: f64,
+            #[doc = concat!("Last ", $one, ". [", $unit, "]")]
+            #[schemars(range(min = $least, max = $greatest))]
+            pub to: f64,
+            #[doc = concat!("Step. [", $step, "]")]
+            #[schemars(range(min = $least, max = $greatest))]
+            pub step: f64,
+            /// The unit in which all three are written.
+            #[serde(default, rename = "unit of steps", skip_serializing_if = "Option::is_none")]
+            #[schemars(skip)]
+            pub unit: Option<String>,
         }
-    }
 
-    /// True if the axis uses fractions of a rating.
-    pub fn is_rated(&self) -> bool {
-        matches!(self, Self::Rated(_))
-    }
-}
-
-/// Powers.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum PowerAxis {
-    /// One power. [W]
-    One(#[schemars(range(min = -1e9, max = 1e9))] f64),
-    /// Several powers. [W]
-    List(#[schemars(inner(range(min = -1e9, max = 1e9)), length(min = 1))] Vec<f64>),
-    /// Powers at equal steps.
-    Steps(PowerSpan),
-}
-
-/// Powers at equal steps.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub struct PowerSpan {
-    /// First power. [W]
-    #[schemars(range(min = -1e9, max = 1e9))]
-    pub from: f64,
-    /// Last power. [W]
-    #[schemars(range(min = -1e9, max = 1e9))]
-    pub to: f64,
-    /// Step. [W]
-    #[schemars(range(min = -1e9, max = 1e9))]
-    pub step: f64,
-    /// The unit in which all three are written.
-    #[serde(default, rename = "unit of steps", skip_serializing_if = "Option::is_none")]
-    #[schemars(skip)]
-    pub unit: Option<String>,
-}
-
-impl PowerAxis {
-    /// The powers. \[W\]
-    ///
-    /// # Errors
-    /// As [`Span::values`].
-    pub fn values(&self) -> Result<Vec<f64>, AxisError> {
-        match self {
-            Self::One(power) => Ok(vec![*power]),
-            Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new([s.from, s.to, s.step], s.unit.as_deref(), unit("W")).values(),
+        impl $Axis {
+            /// The values, SI.
+            ///
+            /// # Errors
+            /// As [`Span::values`], or if the axis uses fractions of a missing rating.
+            pub fn values(&self $(, $rating: Option<f64>)?) -> Result<Vec<f64>, AxisError> {
+                match self {
+                    Self::One(value) => Ok(vec![*value]),
+                    Self::List(list) => Ok(list.clone()),
+                    Self::Steps(s) => Span::new([s.from, s.to, s.step], s.unit.as_deref(), unit($unit)).values(),
+                    $(Self::Rated(shares) => shares.values($rating),)?
+                }
+            }
         }
-    }
+    };
 }
 
-/// Temperatures.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum TemperatureAxis {
-    /// One temperature. [degC]
-    One(#[schemars(range(min = -60.0, max = 250.0))] f64),
-    /// Several temperatures. [degC]
-    List(#[schemars(inner(range(min = -60.0, max = 250.0)), length(min = 1))] Vec<f64>),
-    /// Temperatures at equal steps.
-    Steps(TemperatureSpan),
+axis! {
+    TorqueAxis, TorqueSpan: "Torques", "torques", "torque" in "Nm", steps in "Nm", -1e9 to 1e9,
+    rating: "Torques as fractions of the rated torque."
 }
-
-/// Temperatures at equal steps.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
-pub struct TemperatureSpan {
-    /// First temperature. [degC]
-    #[schemars(range(min = -60.0, max = 250.0))]
-    pub from: f64,
-    /// Last temperature. [degC]
-    #[schemars(range(min = -60.0, max = 250.0))]
-    pub to: f64,
-    /// Step. [K]
-    #[schemars(range(min = -60.0, max = 250.0))]
-    pub step: f64,
-    /// The unit in which all three are written.
-    #[serde(default, rename = "unit of steps", skip_serializing_if = "Option::is_none")]
-    #[schemars(skip)]
-    pub unit: Option<String>,
+axis! {
+    SpeedAxis, SpeedSpan: "Speeds", "speeds", "speed" in "rpm", steps in "rpm", -1e6 to 1e6,
+    rating: "Speeds as fractions of the rated speed."
 }
-
-impl TemperatureAxis {
-    /// The temperatures. \[degC\]
-    ///
-    /// # Errors
-    /// As [`Span::values`].
-    pub fn values(&self) -> Result<Vec<f64>, AxisError> {
-        match self {
-            Self::One(temperature) => Ok(vec![*temperature]),
-            Self::List(list) => Ok(list.clone()),
-            Self::Steps(s) => Span::new([s.from, s.to, s.step], s.unit.as_deref(), unit("degC")).values(),
-        }
-    }
+axis! { PowerAxis, PowerSpan: "Powers", "powers", "power" in "W", steps in "W", -1e9 to 1e9 }
+axis! {
+    TemperatureAxis, TemperatureSpan: "Temperatures", "temperatures", "temperature" in "degC", steps in "K", -60.0 to 250.0
 }
 
 /// Maximum torque over speed: points outside are omitted.

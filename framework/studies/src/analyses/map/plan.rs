@@ -11,7 +11,7 @@ use super::axes::Axes;
 use super::best;
 use super::entry::MapEntry;
 use crate::points::{Field, Given};
-use crate::study::{BEST, Envelope, Grid};
+use crate::study::{BEST, Envelope, Grid, SpeedAxis, TorqueAxis};
 
 /// The points of one map over a grid.
 pub struct Planned<'a> {
@@ -51,8 +51,12 @@ pub fn on_grid<'a>(
                 torques,
                 speeds,
                 shares: [
-                    t.rating.filter(|_| grid.speed.is_rated()).map(|r| r.speed),
-                    t.rating.filter(|_| grid.torque.is_rated()).map(|r| r.torque),
+                    t.rating
+                        .filter(|_| matches!(grid.speed, SpeedAxis::Rated(_)))
+                        .map(|r| r.speed),
+                    t.rating
+                        .filter(|_| matches!(grid.torque, TorqueAxis::Rated(_)))
+                        .map(|r| r.torque),
                 ],
             };
             let field = below(grid, &axes);
