@@ -120,6 +120,7 @@ impl Transmission {
             names: &frame.nodes,
             members: &members.names,
             gears: &frame.gears,
+            meshes: frame.meshes.iter().map(|mesh| mesh.gears).collect(),
             lubricants: &oils.lubricants(),
             housing: housing.outside(),
             machines: &machines,
