@@ -183,6 +183,96 @@ fn shafts_misalign_their_mesh() {
     std::fs::remove_dir_all(folder).unwrap();
 }
 
+/// A helical stage in the middle of both shafts, turning forwards from y to -y: only the moments of the thrust bend them at the mesh. Thrust pushes
+/// a driving pinion with right hand forwards, so that the moments F_a r turn both gears about z, by F_a r L/(12 E I). The pinion, whose shaft is
+/// thin, turns more: its end at greater x leaves the wheel, by sin alpha in the plane of action, and the other end carries more. There contact
+/// ends, so the start of the face is what opens. With left hand all is mirrored.
+#[test]
+fn thrust_of_helical_gears_opens_the_end_that_it_pushes_forwards() {
+    let language = language();
+    let (outer, length) = ([25e-3, 60e-3], 0.1);
+    let [z1, z2, module, helix, facewidth] = [20.0, 40.0, 3.0, 20_f64.to_radians(), 30e-3];
+    let text = |hand: &str, deflects: bool| {
+        let distance = 0.5 * (z1 + z2) * module / helix.cos();
+        let section = |outer: f64| format!("[{{ from: -10 mm, to: 110 mm, outer: {outer} m }}]");
+        let bearings: String = [("input", 1), ("output", 3)]
+            .map(|(shaft, first)| {
+                format!(
+                    "  B{first}: {{ shaft: {shaft}, at: 0 mm, designation: \"6208\", axial: both }}\n  \
+                       B{}: {{ shaft: {shaft}, at: {length} m, designation: \"6208\", axial: none }}\n",
+                    first + 1
+                )
+            })
+            .concat();
+        format!(
+            "gearloss: gearbox/1\nports: {{ input: input, output: output }}\nrating: {{ torque: 100 Nm, speed: 1500 rpm }}\n\
+             shafts:\n  input: {{ axis: [{distance} mm, 0 mm], sections: {} }}\n  output: {{ axis: [0 mm, 0 mm], sections: {} }}\n\
+             gears:\n  pinion: {{ shaft: input, at: 50 mm, z: {z1}, facewidth: {facewidth} m, hand: {hand} }}\n  \
+             wheel: {{ shaft: output, at: 50 mm, z: {z2}, facewidth: {facewidth} m }}\n\
+             meshes:\n  stage: {{ gears: [pinion, wheel], normal_module: {module} mm, pressure_angle: 20 deg, helix_angle: {helix} rad, \
+             shaft_deflection: {deflects} }}\nsurface: {{ ra: 0.4 um }}\nbearings:\n{bearings}lubricants: {{ sump: {{ designation: ISO VG 100 mineral }} }}\n\
+             housing: {{ oil: {{ lubricant: sump }} }}\nthermal: {{ oil: 90 degC }}\n\
+             models:\n  gear_mesh: {{ type: path_integral, load_sharing: {{ type: slices }}, tooth_friction: {{ type: xu }} }}\n  bearing: {{ type: skf }}\n",
+            section(outer[0]),
+            section(outer[1])
+        )
+    };
+    let built = |hand: &str, deflects: bool| {
+        let gearbox = Gearbox::of_text(&language, &text(hand, deflects), "gearbox.yaml", "")
+            .unwrap_or_else(|found| panic!("{}", found.render()));
+        gearbox
+            .transmission(&language, &Choice::default())
+            .unwrap_or_else(|found| panic!("{}", found.render()))
+    };
+    for (hand, near, far) in [("right", 0, 1), ("left", 1, 0)] {
+        let t = built(hand, true);
+        let (_, _, part) = t.cylindrical_meshes().next().unwrap();
+        let pair = &part.pair;
+        let thrust = 100.0 / pair.working_radius[0] * pair.working_helix.tan();
+        let turn = |gear: usize| {
+            let inertia = PI * outer[gear].powi(4) / 64.0;
+            thrust * pair.working_radius[gear] * length / (12.0 * 206e9 * inertia)
+        };
+        assert!(turn(0) > turn(1));
+        let opening = (turn(0) - turn(1)) * pair.working_angle.sin() * pair.facewidth;
+        let line_load = 100.0 / pair.base_radius[0] / pair.facewidth;
+        close(part.misalignment_under(line_load), -opening, 1e-6);
+        let [leaning, straight] = [&t, &built(hand, false)].map(|t| at(t, 100.0, 1500.0).1);
+        assert!(
+            leaning[near] > straight[near] && leaning[far] < straight[far],
+            "{hand}: {leaning:?} {straight:?}"
+        );
+    }
+}
+
+#[test]
+fn misalignments_that_nothing_takes_are_reported() {
+    let language = language();
+    let folder = folder("unused");
+    let mut changes = vec![
+        ("meshes.stage.shaft_deflection", json!(true)),
+        ("shafts.input.sections", sections(30e-3)),
+        ("shafts.output.sections", sections(40e-3)),
+        (MODEL, model(json!("ramp"))),
+    ];
+    let reported = |changes: &[(&str, Value)]| -> Vec<String> {
+        let t = built(&language, &folder, changes).unwrap_or_else(|found| panic!("{}", found.render()));
+        let unused = t
+            .warnings
+            .iter()
+            .filter(|warning| warning.to_string().contains("has no effect"));
+        unused.map(|warning| warning.path.clone()).collect()
+    };
+    // The rating of the example has thin slices.
+    assert!(reported(&changes).is_empty());
+    changes.push((RATINGS, json!("ramp")));
+    let unused = ["meshes.stage.shaft_deflection", "meshes.stage.misalignment"];
+    assert_eq!(reported(&changes), unused);
+    changes[3].1 = model(json!({ "type": "slices" }));
+    assert!(reported(&changes).is_empty());
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
 #[test]
 fn shafts_without_what_their_deflection_needs_are_named() {
     let language = language();

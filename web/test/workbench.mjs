@@ -633,6 +633,10 @@ await step("A new gearbox from the form", async () => {
   check(await page.$eval(teeth, (e) => e.getAttribute("aria-invalid") === "true"), "the fault is not at its field");
   await image(page, "form-fault");
   await fill("Teeth of wheel", "77");
+  await fill("Material of wheel", "PO");
+  await until(page, "materials of the catalogue", () => [...document.querySelectorAll(".hits:not([hidden]) li b")].some((b) => b.textContent === "POM"));
+  await fill("Material of wheel", "");
+  await page.keyboard.press("Backspace");
   const bearing = await fill("Bearing P1", "630");
   await until(page, "bearings of the catalogue", () => [...document.querySelectorAll(".hits:not([hidden]) li b")].some((b) => b.textContent === "6307"));
   await image(page, "form");

@@ -23,6 +23,7 @@ mod oil;
 mod pair;
 mod pose;
 mod shafts;
+mod shares;
 mod source;
 mod study;
 mod units;
@@ -61,6 +62,8 @@ pub struct Imported {
     pub study: Option<String>,
     /// Table of the load cases, if there is a study.
     pub load_cases: Option<String>,
+    /// Tables of loads on the teeth beside the gearbox, by the name with which it names them.
+    pub shares: Vec<(String, String)>,
     /// What was taken, assumed, ignored and is missing, in lines.
     pub report: Vec<String>,
     /// Warnings about the file.
@@ -255,7 +258,16 @@ fn convert(source: &Source<'_>, title: String, language: &Language) -> Option<Im
     }
     let gears: BTreeSet<String> = draft.states.iter().map(|(gear, _)| gear.clone()).collect();
     let study = study::study(&map, &loads, &title, &gears);
-    let faults = check::fit(&mut draft, language, source);
+    let faults = match check::fit(&mut draft, language, source) {
+        Ok(transmission) => {
+            shares::add(&map, &transmission, &mut draft);
+            Vec::new()
+        }
+        Err(faults) => faults,
+    };
+    if source.has_errors() {
+        return None;
+    }
     let report = report(&map, loads.cases.len(), faults);
     draft.head = head(&draft.source);
     draft.report.clone_from(&report);
@@ -264,6 +276,7 @@ fn convert(source: &Source<'_>, title: String, language: &Language) -> Option<Im
         gearbox: yaml::gearbox(&draft),
         study,
         load_cases,
+        shares: draft.shares,
         report,
         warnings: Findings::from(Vec::new()),
     })

@@ -7,4 +7,5 @@ mod fuzz;
 mod hostile;
 mod models;
 mod renames;
+mod shares;
 mod written;

@@ -8,9 +8,9 @@ use crate::common::{gearbox, language};
 
 /// A model that is put together.
 #[derive(Default)]
-struct Model {
-    components: Vec<(i64, String, String)>,
-    relations: Vec<(String, Vec<(String, i64)>)>,
+pub struct Model {
+    pub components: Vec<(i64, String, String)>,
+    pub relations: Vec<(String, Vec<(String, i64)>)>,
     cases: String,
 }
 
@@ -22,13 +22,13 @@ impl Model {
         model
     }
 
-    /// A component with attributes such as `face_width=20`; vectors have commas, lists semicolons.
-    fn component(&mut self, id: i64, kind: &str, attributes: &str) -> &mut Self {
+    /// A component with attributes such as `face_width=20`; vectors have commas, lists semicolons, rows of matrices bars between them.
+    pub fn component(&mut self, id: i64, kind: &str, attributes: &str) -> &mut Self {
         self.components.push((id, kind.to_owned(), attributes_of(attributes)));
         self
     }
 
-    fn relation(&mut self, kind: &str, refs: &[(&str, i64)]) -> &mut Self {
+    pub fn relation(&mut self, kind: &str, refs: &[(&str, i64)]) -> &mut Self {
         let refs = refs.iter().map(|(role, id)| ((*role).to_owned(), *id)).collect();
         self.relations.push((kind.to_owned(), refs));
         self
@@ -51,7 +51,7 @@ impl Model {
         self
     }
 
-    fn stage(&mut self, id: i64, gears: [i64; 2]) -> &mut Self {
+    pub fn stage(&mut self, id: i64, gears: [i64; 2]) -> &mut Self {
         self.component(id, "cylindrical_stage", "");
         self.relation("stage", &[("stage", id), ("gear_1", gears[0]), ("gear_2", gears[1])])
     }
@@ -69,7 +69,7 @@ impl Model {
         )
     }
 
-    fn load(&mut self, id: i64, shaft: i64, data: &str) -> &mut Self {
+    pub fn load(&mut self, id: i64, shaft: i64, data: &str) -> &mut Self {
         self.component(
             id,
             "external_load",
@@ -79,7 +79,7 @@ impl Model {
     }
 
     /// A load case of the first spectrum.
-    fn case(&mut self, id: i64, values: &[(i64, &str)]) -> &mut Self {
+    pub fn case(&mut self, id: i64, values: &[(i64, &str)]) -> &mut Self {
         self.cases.push_str(&format!("<load_case id=\"{id}\">"));
         for (component, attributes) in values {
             let attributes = attributes_of(attributes);
@@ -113,11 +113,11 @@ impl Model {
         text + "</model>"
     }
 
-    fn imported(&self) -> Imported {
+    pub fn imported(&self) -> Imported {
         import(self.xml().as_bytes(), "model.rexs", language()).unwrap_or_else(|found| panic!("{}", found.render()))
     }
 
-    fn refused(&self) -> String {
+    pub fn refused(&self) -> String {
         match import(self.xml().as_bytes(), "model.rexs", language()) {
             Ok(imported) => panic!("{}", imported.gearbox),
             Err(found) => found.render(),
@@ -138,14 +138,15 @@ fn attributes_of(text: &str) -> String {
     let mut all = String::new();
     for attribute in text.split_whitespace() {
         let (id, value) = attribute.split_once('=').unwrap();
-        let list = value.contains([',', ';']);
-        let value = if list {
-            let cells: Vec<String> = value
-                .split([',', ';'])
-                .filter(|cell| !cell.is_empty())
-                .map(|cell| format!("<c>{cell}</c>"))
-                .collect();
-            format!("<array>{}</array>", cells.concat())
+        let cells = |value: &str| -> String {
+            let cells = value.split([',', ';']).filter(|cell| !cell.is_empty());
+            cells.map(|cell| format!("<c>{cell}</c>")).collect()
+        };
+        let value = if value.contains('|') {
+            let rows: String = value.split('|').map(|row| format!("<r>{}</r>", cells(row))).collect();
+            format!("<matrix>{rows}</matrix>")
+        } else if value.contains([',', ';']) {
+            format!("<array>{}</array>", cells(value))
         } else {
             value.to_owned()
         };
@@ -155,7 +156,7 @@ fn attributes_of(text: &str) -> String {
 }
 
 /// One stage: shafts 10 and 20, 100 mm apart.
-fn one_stage(second: &str) -> Model {
+pub fn one_stage(second: &str) -> Model {
     let mut model = Model::new();
     model
         .shaft(10, "0,0,0", "defines_speed=true rotational_speed=1000")
@@ -172,7 +173,7 @@ fn one_stage(second: &str) -> Model {
     model
 }
 
-fn has(text: &str, lines: &[&str]) {
+pub fn has(text: &str, lines: &[&str]) {
     for line in lines {
         assert!(text.contains(line), "`{line}` is not in\n{text}");
     }

@@ -112,13 +112,52 @@ pub fn of_component(quantity: &str) -> String {
     }
 }
 
+/// The end of a path in words. Values and entries of a list have the name of the list and their number, from one: `pins.errors.0` is `error 1 of
+/// the pins`, `sections.1.outer` is `outer of section 2`.
+fn end(path: &str) -> String {
+    let number = |key: &str| key.parse::<usize>().ok().map(|number| number + 1);
+    let Some((before, last)) = path.rsplit_once('.') else {
+        return spaced(path);
+    };
+    let Some(count) = number(last) else {
+        let listed = number(last_key(before)).map(|_| format!("{} of {}", spaced(last), end(before)));
+        return listed.unwrap_or_else(|| spaced(last));
+    };
+    let (around, list) = before.rsplit_once('.').unwrap_or(("", before));
+    let value = format!("{} {count}", singular(list));
+    match around {
+        "" => value,
+        _ if number(last_key(around)).is_some() => format!("{value} of {}", end(around)),
+        _ => format!("{value} of the {}", spaced(last_key(around))),
+    }
+}
+
+/// One of what the key of a list names: `errors` is `error`.
+fn singular(key: &str) -> String {
+    let words = spaced(key);
+    let ends = |ends: &[&str]| ends.iter().any(|end| words.ends_with(end));
+    let cut = |letters: usize| words[..words.len() - letters].to_owned();
+    if ends(&["ies"]) {
+        return cut(3) + "y";
+    }
+    if ends(&["xes", "ches", "shes"]) {
+        return cut(2);
+    }
+    if ends(&["s"]) && !ends(&["is", "ss", "us"]) {
+        return cut(1);
+    }
+    words
+}
+
 /// A quantity of a gearbox: `gears.*.surface.rq` is `surface roughness of the gears`.
 pub fn quantity(path: &str) -> String {
     let is_end = |end: &str| path == end || path.strip_suffix(end).is_some_and(|rest| rest.ends_with('.'));
     let known = QUANTITIES.iter().find(|[end, _]| is_end(end));
-    let name = known.map_or_else(|| spaced(last_key(path)), |[_, words]| (*words).to_owned());
-    match owner(path) {
-        Some((owner, rest)) if !rest.is_empty() => format!("{name} of {owner}"),
+    let owned = owner(path).filter(|(_, rest)| !rest.is_empty());
+    let own = owned.as_ref().map_or(path, |(_, rest)| rest);
+    let name = known.map_or_else(|| end(own), |[_, words]| (*words).to_owned());
+    match owned {
+        Some((owner, _)) => format!("{name} of {owner}"),
         None if known.is_none() && path.starts_with("lubricants.") => format!("{name} of the oil"),
         _ => name,
     }
@@ -182,6 +221,21 @@ mod tests {
         assert_eq!(quantity("lubricants.sump.kind"), "kind of the oil");
         assert_eq!(quantity("bearings.B3.oil_height"), "oil level of bearing B3");
         assert_eq!(quantity("thermal.network.oil_flow"), "oil flow");
+        assert_eq!(quantity("shafts.S1"), "S1");
+        assert_eq!(
+            quantity("planetary_sets.stage.pins.errors.0"),
+            "error 1 of the pins of planetary set stage"
+        );
+        assert_eq!(
+            quantity("shafts.*.sections.1.outer"),
+            "outer of section 2 of the shafts"
+        );
+        assert_eq!(quantity("shafts.S1.axis.0"), "axis 1 of shaft S1");
+        assert_eq!(quantity("shafts.S1.loads.0.force.2"), "force 3 of load 1 of shaft S1");
+        assert_eq!(
+            quantity("housing.inside.boxes.1.from.0"),
+            "from 1 of box 2 of the inside"
+        );
         assert_eq!(model("meshes.M1.model.tooth_friction"), "tooth friction of mesh M1");
         assert_eq!(model("gears.G4.drag.churning.model"), "churning of gear G4");
         assert_eq!(share("bearings.B2"), "bearing B2");

@@ -8,7 +8,7 @@ use std::path::Path;
 use gearloss_framework::codes;
 use gearloss_framework::coefficients::{Changed, changed_from_source};
 use gearloss_framework::document::Diagnostic;
-use gearloss_framework::evaluate::{Point, PowerFlow, Ratings, Solution, WindowFlow};
+use gearloss_framework::evaluate::{Ratings, Solution, WindowFlow};
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
@@ -135,22 +135,9 @@ impl CheckedGearbox {
 pub fn at_the_rating(t: &Transmission, mut each: impl FnMut(&Solution<'_>)) -> Vec<Extent> {
     let Some(rating) = t.rating else { return Vec::new() };
     let mut seen = Vec::new();
-    for i in 0..t.states().len() {
-        let Some(case) = t.case_at_reference(i) else { continue };
-        let mut scratch = t.scratch(&case);
-        let mut torques = vec![0.0; case.torque_ports.len()];
-        for sign in [1.0, -1.0] {
-            let Some(first) = torques.first_mut() else { continue };
-            *first = sign * rating.torque;
-            let point = Point {
-                speeds: &[rating.speed],
-                torques: &torques,
-                flow: PowerFlow::Ideal,
-                ..Point::default()
-            };
-            each(&t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch));
-        }
-        merge(&mut seen, &scratch.totals);
+    let points = [1.0, -1.0].map(|sign| [rating.speed, sign * rating.torque]);
+    for state in 0..t.states().len() {
+        merge(&mut seen, &t.at_reference(state, points, |_, solution| each(solution)));
     }
     seen
 }
@@ -167,18 +154,9 @@ fn short_of_oil(t: &Transmission) -> Vec<Diagnostic> {
     // Smallest flow through each relief valve while its pump runs.
     let mut relieved: Vec<Option<f64>> = vec![None; t.hydraulics().elements.len()];
     for (i, state) in t.states().iter().enumerate() {
-        let Some(case) = t.case_at_reference(i) else { continue };
-        let mut scratch = t.scratch(&case);
-        let torques = vec![0.0; case.torque_ports.len()];
-        for speed in [rating.speed, SLOW * rating.speed] {
-            let point = Point {
-                speeds: &[speed],
-                torques: &torques,
-                flow: PowerFlow::Ideal,
-                ..Point::default()
-            };
-            let solution = t.evaluate(&case, &point, &[t.oil_temperature], &mut scratch);
-            let Some(supply) = solution.oil_supply() else { continue };
+        let speeds = [rating.speed, SLOW * rating.speed];
+        t.at_reference(i, speeds.map(|speed| [speed, 0.0]), |[speed, _], solution| {
+            let Some(supply) = solution.oil_supply() else { return };
             for (least, element) in relieved.iter_mut().zip(&supply.elements) {
                 if let Some(flow) = element.relieved.filter(|_| element.flow > 0.0) {
                     *least = Some(least.map_or(flow, |least: f64| least.min(flow)));
@@ -194,7 +172,7 @@ fn short_of_oil(t: &Transmission) -> Vec<Diagnostic> {
                     );
                 }
             }
-        }
+        });
     }
     for (element, flow) in t.hydraulics().elements.iter().zip(relieved) {
         if let Some(flow) = flow.filter(|flow| *flow > 0.0) {

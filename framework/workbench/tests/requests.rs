@@ -294,5 +294,6 @@ fn catalogues_are_searched() {
     assert_eq!(search("bearings", "6208-2RS1")[0]["designation"], "6208-2RS1");
     assert_eq!(search("bearings", "SKF 6207-2RS")[0]["designation"], "6207-2RS");
     assert!(!search("oils", "vg 150").as_array().unwrap().is_empty());
+    assert_eq!(search("materials", "pom")[0]["designation"], "POM");
     assert_eq!(search("bearings", "no such"), json!([]));
 }

@@ -10,13 +10,14 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::material::{Conductor, FAST};
-use gearloss_framework::mechanism::heat_link::{HeatLink, HeatLinkAt, HeatLinkModel};
+use gearloss_framework::mechanism::heat_link::{FlankHeat, GearMaterial, HeatLink, HeatLinkAt, HeatLinkModel};
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{limits, register};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{STEEL, of_gear};
+use super::{STEEL, of_gear, part};
+use crate::flank_heat::flanks;
 
 limits! { PECLET = ("Pe", "Péclet number of the contact", "-", FAST, f64::INFINITY, "fast bands of contact, derived"); }
 /// Sine of a pressure angle of 20 deg.
@@ -55,58 +56,28 @@ pub struct Params {
     /// Coefficient of the band of contact.
     #[serde(default)]
     pub band: Band,
-    /// Thermal conductivity of the flanks. [W/(m K)]
-    #[serde(default = "conductivity")]
+    /// Thermal conductivity of the flanks; default: that of the gears' materials, else 46. [W/(m K)]
     #[schemars(range(min = 0.1, max = 500.0))]
-    pub conductivity: f64,
-    /// Density of the flanks. [kg/m3]
-    #[serde(default = "density")]
+    pub conductivity: Option<f64>,
+    /// Density of the flanks; default: that of the gears' materials, else 7800. [kg/m3]
     #[schemars(range(min = 500.0, max = 20000.0))]
-    pub density: f64,
-    /// Specific heat of the flanks. [J/(kg K)]
-    #[serde(default = "heat_capacity")]
+    pub density: Option<f64>,
+    /// Specific heat of the flanks; default: that of the gears' materials, else 470. [J/(kg K)]
     #[schemars(range(min = 100.0, max = 3000.0))]
-    pub heat_capacity: f64,
-    /// The flanks of the other gear, if they are of another material.
-    pub mate: Option<Mate>,
-}
-
-/// Thermal properties of the other flank.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
-pub struct Mate {
-    /// Thermal conductivity. [W/(m K)]
-    #[schemars(range(min = 0.05, max = 500.0))]
-    pub conductivity: f64,
-    /// Density. [kg/m3]
-    #[schemars(range(min = 500.0, max = 20000.0))]
-    pub density: f64,
-    /// Specific heat. [J/(kg K)]
-    #[schemars(range(min = 100.0, max = 5000.0))]
-    pub heat_capacity: f64,
-}
-
-impl Mate {
-    fn conductor(self) -> Conductor {
-        Conductor {
-            conductivity: self.conductivity,
-            density: self.density,
-            heat_capacity: self.heat_capacity,
-        }
-    }
+    pub heat_capacity: Option<f64>,
+    /// The flanks of the other gear, if they are not of its material.
+    pub mate: Option<FlankHeat>,
 }
 
 fn pairs() -> f64 {
     1.5
 }
-fn conductivity() -> f64 {
-    STEEL
-}
-fn density() -> f64 {
-    7800.0
-}
-fn heat_capacity() -> f64 {
-    470.0
-}
+/// The steel of gears that name no material.
+const FLANK: Conductor = Conductor {
+    conductivity: STEEL,
+    density: 7800.0,
+    heat_capacity: 470.0,
+};
 
 struct Teeth {
     flanks: [Conductor; 2],
@@ -118,13 +89,19 @@ struct Teeth {
 }
 
 fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Teeth, Diagnostic> {
-    let flank = Conductor {
-        conductivity: params.conductivity,
-        density: params.density,
-        heat_capacity: params.heat_capacity,
-    };
+    let gear = part(cx).gear;
+    let of_mate = params.mate.map(|thermal| GearMaterial {
+        thermal: Some(thermal),
+        ..GearMaterial::default()
+    });
+    let mate = of_mate.or(gear.map(|gear| gear.mate)).unwrap_or_default();
+    let materials = [gear.map(|gear| gear.material).unwrap_or_default(), mate];
+    let stated = [params.conductivity, params.density, params.heat_capacity];
+    let known = materials.map(|of| (of.kind, of.thermal.map(Conductor::from)));
+    let [own, other] = flanks(stated, FLANK, known, cx)?;
     Ok(Teeth {
-        flanks: [flank, params.mate.map_or(flank, Mate::conductor)],
+        // What is stated for `mate` is its own, also where the other flank's values are stated.
+        flanks: [own, params.mate.map_or(other, Conductor::from)],
         half_width: params.half_width,
         length: of_gear(
             params.length,
@@ -180,7 +157,11 @@ register!(HeatLink, "tooth_contact", Params,
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use std::sync::Arc;
+
     use gearloss_framework::mechanism::heat_link::HeatLinkPart;
+    use gearloss_framework::registry::{Files, Registry};
+    use serde_json::{Value, json};
 
     use super::super::cases::{at, built};
     use super::*;
@@ -193,9 +174,9 @@ mod tests {
             radius: Some(0.010),
             contact_ratio: 1.0,
             band,
-            conductivity: STEEL,
-            density: 7800.0,
-            heat_capacity: 470.0,
+            conductivity: None,
+            density: None,
+            heat_capacity: None,
             mate: None,
         }
     }
@@ -217,6 +198,49 @@ mod tests {
             ..teeth(Band::Even, Some(0.030))
         };
         close(resistance(pairs, 500.0), 0.09971300 / 1.6);
+    }
+
+    /// A plastic wheel on a steel pinion: its flank resists by the ratio of the effusivities, from the materials or as stated.
+    #[test]
+    fn materials_of_the_gears_resist_as_their_own_values() {
+        let pom = json!({ "conductivity": 0.31, "density": 1410.0, "heat_capacity": 1470.0 });
+        let plastic = json!({ "kind": "pom", "thermal": pom });
+        let of = |material: Value, mate: Value, more: Value| {
+            let gear = json!({ "teeth": 31, "pitch_diameter": 0.0563, "tip_diameter": 0.0599, "tooth_height": 0.0038, "facewidth": 0.03,
+                "material": material, "mate": mate });
+            let part = Arc::new(HeatLinkPart {
+                gear: Some(serde_json::from_value(gear).unwrap()),
+                ..HeatLinkPart::default()
+            });
+            let mut model =
+                json!({ "type": "tooth_contact", "half_width": 1.5e-4, "radius": 0.01, "contact_ratio": 1.0 });
+            model.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+            let (registry, files) = (Registry::linked().unwrap(), Files::default());
+            let slot = Build::new(&registry, &files).slot_at::<HeatLink>("link", &part, &model);
+            let slot = slot.map_err(|fault| fault.to_string())?;
+            let at = at(&part, 500.0, [0.14, 1.5e-5, 820.0, 2100.0]);
+            Ok::<f64, String>(1.0 / slot.conductance(&at).unwrap())
+        };
+        let steel = || json!({});
+        let both_steel = of(steel(), steel(), json!({})).unwrap();
+        close(both_steel, 0.09971300);
+        let effusivity = |k: f64, rho: f64, c: f64| (k * rho * c).sqrt();
+        let ratio = effusivity(46.0, 7800.0, 470.0) / effusivity(0.31, 1410.0, 1470.0);
+        let mixed = 0.5 * both_steel * (1.0 + ratio);
+        close(of(steel(), plastic.clone(), json!({})).unwrap(), mixed);
+        close(of(plastic.clone(), steel(), json!({})).unwrap(), mixed);
+        close(of(steel(), steel(), json!({ "mate": pom })).unwrap(), mixed);
+        close(
+            of(
+                steel(),
+                plastic,
+                json!({ "conductivity": 46.0, "density": 7800.0, "heat_capacity": 470.0 }),
+            )
+            .unwrap(),
+            both_steel,
+        );
+        let error = of(json!({ "kind": "plastic" }), steel(), json!({})).unwrap_err();
+        assert!(error.contains("thermal properties of a plastic gear"), "{error}");
     }
 
     #[test]

@@ -69,7 +69,7 @@ struct OfPairing {
 /// A pairing that the source does not have, in words.
 fn dry(pairings: &Pairings, part: &MeshPart) -> Result<f64, String> {
     let [z1, z2] = part.pair.z;
-    let kinds = part.gears.map(|material| material.kind);
+    let kinds = part.materials.map(|material| material.kind);
     let [pinion, wheel] = if z1 <= z2 { kinds } else { [kinds[1], kinds[0]] };
     match (pinion.is_plastic(), wheel.is_plastic()) {
         (true, false) => Ok(pairings.plastic_pinion),

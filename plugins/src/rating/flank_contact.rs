@@ -123,7 +123,7 @@ impl Prepared {
         to.add(&AT_PITCH, at.show("p_HC", "MPa", at_pitch * 1e-6));
         let permissible = at
             .part
-            .gears
+            .materials
             .iter()
             .filter_map(|material| material.permissible_pressure);
         let least = permissible.fold(None, |least: Option<f64>, own| {

@@ -23,7 +23,7 @@ use serde::Deserialize;
 use serde_json::json;
 
 use super::flank::{self, RatedFlanks};
-use crate::flank_heat::flanks;
+use crate::flank_heat::{flanks, known};
 use crate::tooth_friction::ehl_mixed::contact::Contact;
 use crate::tooth_friction::ehl_mixed::temperature::blok;
 
@@ -98,7 +98,7 @@ fn prepare(params: FlashTemperature, cx: &mut Build<'_>) -> Result<Prepared, Dia
         conductors: flanks(
             [params.conductivity, params.density, params.heat_capacity],
             STEEL,
-            &part,
+            part.materials.map(known),
             cx,
         )
         .ok(),

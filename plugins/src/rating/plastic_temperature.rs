@@ -105,9 +105,9 @@ impl Rating<GearMesh> for Prepared {
         let factor = at.show("H_v", "-", pair.loss_factor_ohlendorf());
         let heat = at.show("P_R", "W", at.torque * at.speed.abs() * mu * factor);
         let around = at.show("theta_0", "degC", self.params.surroundings.unwrap_or(at.temperature));
-        let both = part.gears.iter().all(|material| material.kind.is_plastic());
+        let both = part.materials.iter().all(|material| material.kind.is_plastic());
         let factors = if both { WITH_PLASTIC } else { WITH_METAL };
-        for (gear, material) in part.gears.iter().enumerate() {
+        for (gear, material) in part.materials.iter().enumerate() {
             if !material.kind.is_plastic() {
                 continue;
             }

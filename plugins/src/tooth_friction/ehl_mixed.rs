@@ -49,7 +49,7 @@ use gearloss_framework::{limits, observed, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::flank_heat::flanks;
+use crate::flank_heat::{flanks, known};
 use crate::rotating::Body;
 use contact::Contact;
 use film::{Factor, Film, InletHeating};
@@ -222,7 +222,7 @@ impl EhlMixed {
                 transit: params.transit,
                 film_heat: params.film_heat,
                 exponent: params.exponent,
-                flanks: flanks(stated, STEEL, &part, cx)?,
+                flanks: flanks(stated, STEEL, part.materials.map(known), cx)?,
                 thermal: params.thermal,
             },
             fluid: MeshFluid::new(written, part.oil.as_ref(), cx)?,

@@ -21,12 +21,14 @@ pub fn run(file: &Path, output: Option<&Path>, out: &mut Out) -> Result<End, Fai
         || PathBuf::from(rexs::title(&file.display().to_string())),
         Path::to_path_buf,
     );
+    let shares = imported.shares.iter().map(|(name, text)| (name.as_str(), Some(text)));
     let texts: Vec<(PathBuf, &str)> = [
         ("gearbox.yaml", Some(&imported.gearbox)),
         ("study.yaml", imported.study.as_ref()),
         ("load_cases.csv", imported.load_cases.as_ref()),
     ]
     .into_iter()
+    .chain(shares)
     .filter_map(|(name, text)| Some((folder.join(name), text?.as_str())))
     .collect();
     // All or none, so that files of two models never lie side by side.

@@ -3,12 +3,12 @@
 import { html, unique } from "../svg.ts";
 import { words } from "../format.ts";
 import { Quiet } from "./pace.ts";
-import type { CatalogueRow } from "./protocol.ts";
+import type { CatalogueOf, CatalogueRow } from "./protocol.ts";
 
 /** Makes a text field search; `chosen` is called after a row was taken. */
-export function searches(input: HTMLInputElement, of: "bearings" | "oils", ask: (of: "bearings" | "oils", text: string) => Promise<CatalogueRow[] | null>, chosen: () => void): void {
+export function searches(input: HTMLInputElement, of: CatalogueOf, ask: (of: CatalogueOf, text: string) => Promise<CatalogueRow[] | null>, chosen: () => void): void {
   const id = unique("hits");
-  const list = html(null, "ul", { class: "hits", role: "listbox", id, "aria-label": of === "bearings" ? "bearings of the catalogue" : "oils of the catalogue", hidden: "" });
+  const list = html(null, "ul", { class: "hits", role: "listbox", id, "aria-label": `${of} of the catalogue`, hidden: "" });
   // After the field, not over it: the fields below stay in reach.
   input.parentElement!.append(list);
   for (const [key, value] of Object.entries({ role: "combobox", "aria-expanded": "false", "aria-controls": id, "aria-autocomplete": "list", autocomplete: "off" })) input.setAttribute(key, value);

@@ -8,9 +8,12 @@ import { describeFinding } from "./findings.ts";
 import { fileName, freeName, nameFault } from "./names.ts";
 import { Quiet } from "./pace.ts";
 import { prose } from "./prose.ts";
-import type { Fault, Field, Finding, Layout } from "./protocol.ts";
+import type { CatalogueOf, Fault, Field, Finding, Layout } from "./protocol.ts";
 import { Newest, Refused, type Transport } from "./transport.ts";
 import { visible } from "../visible.ts";
+
+/** The catalogue that a kind of field searches. */
+const CATALOGUES: Partial<Record<Field["kind"], CatalogueOf>> = { bearing: "bearings", oil: "oils", material: "materials" };
 
 /** The field that a finding belongs to: its path is that of the field, or inside of it, or around it. */
 export function fieldOf(path: string, fields: string[]): string | null {
@@ -150,7 +153,8 @@ export function newGearbox(layouts: Layout[], transport: Transport, taken: () =>
           changed();
         };
         input.addEventListener("input", noted);
-        if ((field.kind === "bearing" || field.kind === "oil") && input instanceof HTMLInputElement) searches(input, field.kind === "bearing" ? "bearings" : "oils", (of, part) => catalogue.ask({ request: "catalogue", of, text: part }), noted);
+        const of = CATALOGUES[field.kind];
+        if (of && input instanceof HTMLInputElement) searches(input, of, (of, part) => catalogue.ask({ request: "catalogue", of, text: part }), noted);
       }
     }
     text = null;

@@ -191,7 +191,7 @@ export type Block = { text: string } | { table: Table };
 export interface Field {
   path: string;
   label: string;
-  kind: "text" | "integer" | "number" | "quantity" | "bearing" | "oil" | "choice";
+  kind: "text" | "integer" | "number" | "quantity" | "bearing" | "oil" | "material" | "choice";
   /** What is in the template, such as `25 mm`; empty if nothing has to be typed. */
   value: string;
   help: string;
@@ -206,6 +206,9 @@ export interface Layout {
   about: string;
   groups: { title: string; fields: Field[]; folded?: boolean }[];
 }
+
+/** A catalogue that the program searches. */
+export type CatalogueOf = "bearings" | "oils" | "materials";
 
 export interface CatalogueRow {
   designation: string;
@@ -251,7 +254,7 @@ export type Request =
   | { request: "run"; texts: Texts; study: string; analyses: string[] } // none named: all, and the report
   | { request: "new"; layout: string; values: Record<string, string> } // path to what was typed
   | { request: "new_study"; texts: Texts; gearbox: string } // to be saved in the folder of the gearbox
-  | { request: "catalogue"; of: "bearings" | "oils"; text: string }
+  | { request: "catalogue"; of: CatalogueOf; text: string }
   | { request: "watch"; files: Record<string, string> }; // file to the hash that the page knows; "": the file is not there
 
 export interface Answers {

@@ -449,7 +449,7 @@ pub fn slices_of(part: &MeshPart, entry: &SlicesSharing) -> Result<(Stiffness, S
             "state the tip diameter of the ring, or choose a load sharing that is one word",
         ));
     }
-    let bodies = (part.materials, part.bores);
+    let bodies = (part.elastic(), part.bores);
     let stiffness = Stiffness::new(pair, bodies, entry.stiffness, entry.single_stiffness);
     let help = match entry.stiffness {
         StiffnessLaw::Sainsot if !pair.internal => {
@@ -503,7 +503,7 @@ impl Sharing {
                 let kappa = match (amount, kappa) {
                     (None, Some(kappa)) => Kappa::Stated(*kappa),
                     (Some(amount), None) => {
-                        let single = || stiffness::single_stiffness(pair, part.materials);
+                        let single = || stiffness::single_stiffness(pair, part.elastic());
                         Kappa::OfAmount(amount * stiffness.unwrap_or_else(single))
                     }
                     _ => {

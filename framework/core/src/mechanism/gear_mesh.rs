@@ -123,10 +123,8 @@ pub struct MeshPart {
     pub rq: f64,
     /// Reduced modulus, 2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. \[Pa\]
     pub modulus: f64,
-    /// Elastic constants of both gears.
-    pub materials: [Elastic; 2],
-    /// Materials of both gears, with these constants.
-    pub gears: [Material; 2],
+    /// Materials of both gears.
+    pub materials: [Material; 2],
     /// Modifications of the flanks of both gears.
     pub flanks: [FlankModification; 2],
     /// Diameters of the bores of both gears, if they are stated. \[m\]
@@ -163,14 +161,12 @@ impl MeshPart {
 
     /// A pair with its computed geometry, from roughness (m) and materials of both gears.
     pub fn of_materials(pair: Pair, ra: [f64; 2], rq: [f64; 2], materials: [Material; 2]) -> Self {
-        let elastic = materials.map(|material| material.elastic);
         Self {
             pair,
             ra: 0.5 * (ra[0] + ra[1]),
             rq: rq[0].hypot(rq[1]),
-            modulus: reduced_modulus(elastic),
-            materials: elastic,
-            gears: materials,
+            modulus: reduced_modulus(materials.map(|material| material.elastic)),
+            materials,
             flanks: [FlankModification::default(); 2],
             bores: [None; 2],
             misalignment: 0.0,
@@ -179,9 +175,14 @@ impl MeshPart {
         }
     }
 
+    /// Elastic constants of both gears.
+    pub fn elastic(&self) -> [Elastic; 2] {
+        self.materials.map(|material| material.elastic)
+    }
+
     /// The first plastic of both gears.
     pub fn plastic(&self) -> Option<&Material> {
-        self.gears.iter().find(|material| material.kind.is_plastic())
+        self.materials.iter().find(|material| material.kind.is_plastic())
     }
 
     /// The pair with modified flanks and a misalignment over the face width. \[m\]

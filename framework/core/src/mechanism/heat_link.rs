@@ -5,6 +5,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::loss::Undefined;
+use crate::material::{Conductor, Material, MaterialKind};
 use crate::mechanism::Mechanism;
 use crate::mechanism::Scalar;
 use crate::mechanism::heat_dissipation::HousingPart;
@@ -26,6 +27,53 @@ pub trait HeatLinkModel: Send + Sync {
     fn conductance(&self, at: &HeatLinkAt<'_>) -> Result<f64, Undefined>;
 }
 
+/// What heat models take from the material of a gear.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GearMaterial {
+    /// Kind.
+    #[serde(default)]
+    pub kind: MaterialKind,
+    /// Thermal properties, if they are stated.
+    pub thermal: Option<FlankHeat>,
+}
+
+/// Thermal properties of a flank.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FlankHeat {
+    /// Thermal conductivity. [W/(m K)]
+    #[schemars(range(min = 0.05, max = 500.0))]
+    pub conductivity: f64,
+    /// Density. [kg/m3]
+    #[schemars(range(min = 500.0, max = 25000.0))]
+    pub density: f64,
+    /// Specific heat. [J/(kg K)]
+    #[schemars(range(min = 50.0, max = 5000.0))]
+    pub heat_capacity: f64,
+}
+
+impl From<FlankHeat> for Conductor {
+    fn from(of: FlankHeat) -> Self {
+        Self {
+            conductivity: of.conductivity,
+            density: of.density,
+            heat_capacity: of.heat_capacity,
+        }
+    }
+}
+
+impl From<Material> for GearMaterial {
+    fn from(of: Material) -> Self {
+        Self {
+            kind: of.kind,
+            thermal: of.thermal.map(|own| FlankHeat {
+                conductivity: own.conductivity,
+                density: own.density,
+                heat_capacity: own.heat_capacity,
+            }),
+        }
+    }
+}
+
 /// The gear named by a link.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GearShape {
@@ -44,6 +92,12 @@ pub struct GearShape {
     /// Face width. [mm]
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub facewidth: f64,
+    /// Its material; default: a steel.
+    #[serde(default)]
+    pub material: GearMaterial,
+    /// The material of the gear that meshes with it and is in the other node of the link; default: a steel.
+    #[serde(default)]
+    pub mate: GearMaterial,
 }
 
 /// Surroundings of a link; in a gearbox the framework fills it from `housing.outside` and from the gear named by the link.

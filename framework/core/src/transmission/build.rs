@@ -98,6 +98,7 @@ impl Transmission {
         frame.leans = leans.to_vec();
         let frame = frame;
         let (entry, members, ports) = (&frame.entry, &frame.members, &frame.ports);
+        warnings.extend(lean::without_effect(entry, &resolved.value));
         let mut oils = frame.oils(resolved, &mut memory);
         let mut build = Build::again(language.registry(), files, memory);
         build.oil_elements = Some(element_paths(entry));
@@ -119,6 +120,7 @@ impl Transmission {
             names: &frame.nodes,
             members: &members.names,
             gears: &frame.gears,
+            meshes: frame.meshes.iter().map(|mesh| mesh.gears).collect(),
             lubricants: &oils.lubricants(),
             housing: housing.outside(),
             machines: &machines,

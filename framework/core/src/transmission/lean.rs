@@ -25,6 +25,40 @@ pub fn is_wanted(entry: &GearboxEntry) -> bool {
     entry.meshes.0.iter().any(|(_, mesh)| mesh.shaft_deflection)
 }
 
+/// Reports misalignments, stated or by the shafts, of meshes where nothing has thin slices, which alone take them.
+pub fn without_effect(entry: &GearboxEntry, resolved: &Value) -> Vec<Diagnostic> {
+    let has_slices = |model: &Value| {
+        let sharing = SharingEntry::of_model(model);
+        matches!(
+            sharing,
+            Some((_, SharingEntry::Calculated(CalculatedSharing::Slices(_))))
+        )
+    };
+    let ratings = resolved["ratings"].as_object();
+    if ratings.is_some_and(|all| all.values().any(has_slices)) {
+        return Vec::new();
+    }
+    let meshes = entry.meshes.iter();
+    let stated = meshes.flat_map(|(id, mesh)| {
+        let keys = [
+            ("shaft_deflection", mesh.shaft_deflection),
+            ("misalignment", mesh.misalignment != 0.0),
+        ];
+        keys.into_iter()
+            .filter(|(_, stated)| *stated)
+            .map(move |(key, _)| (id, key))
+    });
+    let unused = stated.filter(|(id, _)| !has_slices(&resolved["meshes"][*id]["model"]));
+    unused
+        .map(|(id, key)| {
+            let message = format!("`{key}` has no effect: neither the model of the mesh nor a rating has thin slices");
+            Diagnostic::warning(format!("meshes.{id}.{key}"), message)
+                .code(codes::LEAN_UNUSED)
+                .help("write `load_sharing: { type: slices }` in the model of the mesh, or remove it")
+        })
+        .collect()
+}
+
 /// The leans of all meshes of a transmission that was built without them, by number.
 ///
 /// # Errors

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::{Case, CrossedKind, TransferLaw, Transmission};
 use crate::evaluate::{Point, PowerFlow, Solution};
+use crate::loss::Extent;
 use crate::material::MaterialKind;
 
 /// Derived geometry of one mesh; values of two gears in the order of `gears`.
@@ -227,8 +228,8 @@ impl Transmission {
                 }),
                 undercut_limit: [0, 1].map(|gear| external(gear).map(|gear| pair.undercut_limit(gear))),
                 specific_sliding: pair.involute.then(|| pair.specific_sliding()),
-                material: named.then(|| part.gears.map(|material| material.kind)),
-                elastic_modulus_gpa: named.then(|| part.materials.map(|elastic| elastic.modulus * 1e-9)),
+                material: named.then(|| part.materials.map(|material| material.kind)),
+                elastic_modulus_gpa: named.then(|| part.elastic().map(|elastic| elastic.modulus * 1e-9)),
                 reduced_modulus_gpa: named.then_some(part.modulus * 1e-9),
             })
         })
@@ -248,22 +249,50 @@ impl Transmission {
             .flatten()
     }
 
-    /// What `read` takes from the rated torque and speed at the reference port in a gear state, with an ideal flow; `None` without a rating, if
-    /// they do not determine the state, or if no power flows.
-    pub fn at_rating<T>(&self, state: usize, read: impl FnOnce(&Solution<'_>) -> T) -> Option<T> {
-        let rating = self.rating?;
-        let case = self.case_at_reference(state)?;
+    /// Solves speeds and torques at the reference port in a gear state, with an ideal flow and the oil at its temperature, and returns what models
+    /// noted; nothing if they do not determine the state. \[rad/s, Nm\]
+    pub fn at_reference(
+        &self,
+        state: usize,
+        points: impl IntoIterator<Item = [f64; 2]>,
+        mut each: impl FnMut([f64; 2], &Solution<'_>),
+    ) -> Vec<Extent> {
+        let Some(case) = self.case_at_reference(state) else {
+            return Vec::new();
+        };
         let mut scratch = self.scratch(&case);
         let mut torques = vec![0.0; case.torque_ports.len()];
-        *torques.first_mut()? = rating.torque;
-        let point = Point {
-            speeds: &[rating.speed],
-            torques: &torques,
-            flow: PowerFlow::Ideal,
-            ..Point::default()
-        };
-        let solution = self.evaluate(&case, &point, &[self.oil_temperature], &mut scratch);
-        solution.has_flow().then(|| read(&solution))
+        for place @ [speed, torque] in points {
+            match torques.first_mut() {
+                Some(first) => *first = torque,
+                None if torque != 0.0 => continue,
+                None => {}
+            }
+            let point = Point {
+                speeds: &[speed],
+                torques: &torques,
+                flow: PowerFlow::Ideal,
+                ..Point::default()
+            };
+            each(
+                place,
+                &self.evaluate(&case, &point, &[self.oil_temperature], &mut scratch),
+            );
+        }
+        scratch.totals
+    }
+
+    /// What `read` takes from the rated torque and speed at the reference port in a gear state; `None` without a rating, if they do not
+    /// determine the state, or if no power flows.
+    pub fn at_rating<T>(&self, state: usize, read: impl FnOnce(&Solution<'_>) -> T) -> Option<T> {
+        let rating = self.rating?;
+        let (mut read, mut found) = (Some(read), None);
+        self.at_reference(state, [[rating.speed, rating.torque]], |_, solution| {
+            if solution.has_flow() {
+                found = read.take().map(|read| read(solution));
+            }
+        });
+        found
     }
 
     /// Speed of the reference port over that of each other port in a gear state, by port; `None` if that port is stationary, and

@@ -54,6 +54,16 @@ const ATTRIBUTES: &[(&str, &str, &[&str])] = &[
         "nominal_design_pressure_angle_on_coast_side",
         &[],
     ),
+    (
+        "load_sharing_factor_of_calculation_points_agma_925_a03",
+        "load_sharing_factor_of_calculation_points_agma_925_2003",
+        &[],
+    ),
+    (
+        "roll_angles_of_calculation_points_agma_925_a03",
+        "roll_angles_of_calculation_points_agma_925_2003",
+        &[],
+    ),
     ("basic_addendum_coefficient", "basic_crown_gear_addendum_factor", &[]),
     ("basic_dedendum_coefficient", "basic_crown_gear_dedendum_factor", &[]),
 ];

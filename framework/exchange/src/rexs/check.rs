@@ -7,6 +7,7 @@ use gearloss_document::Diagnostic;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
+use gearloss_framework::transmission::Transmission;
 
 use super::draft::{Bearing, Draft};
 use super::source::Source;
@@ -15,15 +16,15 @@ use super::yaml;
 /// Rounds of changes: each bearing and shaft has at most three, and a change may uncover an error of the next stage.
 const ROUNDS: usize = 10;
 
-/// Changes the models of bearings and the arrangement of bearings until they cause no error. Other errors, which `check` reports too, are
-/// returned as lines.
-pub fn fit(draft: &mut Draft, language: &Language, source: &Source<'_>) -> Vec<String> {
+/// Changes the models of bearings and the arrangement of bearings until they cause no error, and returns the transmission; or lines of other
+/// errors, which `check` reports too.
+pub fn fit(draft: &mut Draft, language: &Language, source: &Source<'_>) -> Result<Transmission, Vec<String>> {
     let mut reasons: BTreeMap<String, String> = BTreeMap::new();
-    let mut found = Vec::new();
+    let mut built = Err(Vec::new());
     for _ in 0..ROUNDS {
-        found = findings(&yaml::gearbox(draft), language);
+        built = build(&yaml::gearbox(draft), language);
         let mut changed = false;
-        for finding in &found {
+        for finding in built.as_ref().err().into_iter().flatten() {
             changed |= other_model(draft, finding, &mut reasons)
                 || without_bearings(draft, finding, source)
                 || arrange(draft, finding, source);
@@ -44,16 +45,14 @@ pub fn fit(draft: &mut Draft, language: &Language, source: &Source<'_>) -> Vec<S
             }
         }
     }
-    found.iter().map(ToString::to_string).collect()
+    built.map_err(|found| found.iter().map(ToString::to_string).collect())
 }
 
-/// The errors of a gearbox.
-fn findings(text: &str, language: &Language) -> Vec<Diagnostic> {
+/// The transmission of a gearbox, or its errors.
+fn build(text: &str, language: &Language) -> Result<Transmission, Vec<Diagnostic>> {
     let read = Gearbox::of_text(language, text, "gearbox.yaml", "");
-    match read.and_then(|gearbox| gearbox.transmission(language, &Choice::default())) {
-        Ok(_) => Vec::new(),
-        Err(findings) => findings.list,
-    }
+    let built = read.and_then(|gearbox| gearbox.transmission(language, &Choice::default()));
+    built.map_err(|findings| findings.list)
 }
 
 /// A model that a bearing's data do not suffice for is replaced: ISO/TR 14179-2 instead of SKF, then none.

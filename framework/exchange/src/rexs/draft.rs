@@ -28,6 +28,8 @@ pub struct Draft {
     pub heat: Option<(f64, f64)>,
     /// Values that the file does not have, and why: paths, reason.
     pub assumed: Vec<(Vec<String>, String)>,
+    /// Tables of loads on the teeth, by the name of their file.
+    pub shares: Vec<(String, String)>,
     /// Sections that come from the file.
     pub from_file: Vec<&'static str>,
     /// Lines at the end, without `# `.
@@ -111,6 +113,8 @@ pub struct Mesh {
     /// Materials of both gears, if they differ or are soft.
     pub materials: Option<[Material; 2]>,
     pub lubricant: Option<String>,
+    /// File with the loads on its teeth.
+    pub shares: Option<String>,
 }
 
 /// Material of a gear.

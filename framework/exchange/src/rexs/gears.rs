@@ -357,6 +357,7 @@ fn mesh(
         lubricant: oil
             .map(|oil| id("lubricant", oil.id))
             .filter(|oil| Some(oil) != map.sump.as_ref()),
+        shares: None,
     })
 }
 

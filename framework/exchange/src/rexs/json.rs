@@ -62,11 +62,13 @@ struct ComponentPart<'a> {
     attributes: Raw<'a>,
 }
 
-/// An encoded array.
+/// An encoded array or matrix.
 #[derive(Deserialize)]
 struct CodedPart {
     code: String,
     value: String,
+    /// Of a matrix.
+    columns: Option<usize>,
 }
 
 #[derive(Deserialize)]
@@ -288,19 +290,29 @@ fn value(raw: &str) -> Value {
     };
     if raw.starts_with('{') {
         let part = serde_json::from_str::<CodedPart>(raw);
-        return part.map_or(Value::Other, |part| coded::array(&part.code, &part.value));
+        return part.map_or(Value::Other, |part| {
+            let list = coded::array(&part.code, &part.value);
+            match part.columns {
+                Some(columns) => list.rows(columns),
+                None => list,
+            }
+        });
     }
     if !raw.starts_with('[') {
         return scalar(raw).map_or(Value::Other, Value::Text);
     }
-    let Ok(cells) = serde_json::from_str::<Vec<&RawValue>>(raw) else {
-        return Value::Other;
+    let parts = |raw: &str| -> Option<Vec<String>> {
+        let cells = serde_json::from_str::<Vec<&RawValue>>(raw).ok();
+        let cells = cells.filter(|cells| cells.len() <= LONGEST_LIST)?;
+        cells.iter().map(|cell| scalar(cell.get())).collect()
     };
-    if cells.len() > LONGEST_LIST {
-        return Value::Other;
+    if let Some(cells) = parts(raw) {
+        return Value::List(cells);
     }
-    let cells: Option<Vec<String>> = cells.iter().map(|cell| scalar(cell.get())).collect();
-    cells.map_or(Value::Other, Value::List)
+    let rows = serde_json::from_str::<Vec<&RawValue>>(raw).ok();
+    let rows = rows.filter(|rows| rows.len() <= LONGEST_LIST);
+    let rows = rows.and_then(|rows| rows.iter().map(|row| parts(row.get())).collect());
+    rows.map_or(Value::Other, Value::Rows)
 }
 
 #[cfg(test)]

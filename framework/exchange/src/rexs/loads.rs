@@ -39,7 +39,7 @@ pub struct Loads {
 
 /// A load case with what the components state without it.
 #[derive(Clone, Copy)]
-struct Values<'a> {
+pub(super) struct Values<'a> {
     source: &'a Source<'a>,
     case: Option<&'a LoadCase>,
 }
@@ -53,8 +53,24 @@ impl<'a> Values<'a> {
             .unwrap_or(component)
     }
 
-    fn number(&self, component: &'a Component, id: &str, quantity: Quantity) -> Option<f64> {
+    /// True if the load case itself states an attribute.
+    pub(super) fn states(&self, component: &Component, id: &str) -> bool {
+        let in_case = self.case.and_then(|case| case.components.get(&component.id));
+        in_case.is_some_and(|in_case| in_case.attribute(id).is_some())
+    }
+
+    /// What the components state without a load case.
+    pub(super) fn without_case(self) -> Self {
+        Self { case: None, ..self }
+    }
+
+    pub(super) fn number(&self, component: &'a Component, id: &str, quantity: Quantity) -> Option<f64> {
         self.source.number(self.holder(component, id), id, quantity)
+    }
+
+    /// Several numbers; see [`Source::numbers`].
+    pub(super) fn numbers(&self, component: &'a Component, id: &str, quantity: Quantity) -> Option<Vec<f64>> {
+        self.source.numbers(self.holder(component, id), id, quantity)
     }
 
     /// The time of a load case itself: that of the gear unit is the life of the gearbox.
@@ -69,7 +85,7 @@ impl<'a> Values<'a> {
 }
 
 /// All load cases with their spectrum; the components alone if there is none.
-fn all<'a>(source: &'a Source<'a>) -> Vec<(usize, Values<'a>)> {
+pub(super) fn all<'a>(source: &'a Source<'a>) -> Vec<(usize, Values<'a>)> {
     let spectra = source.model.spectra.iter().enumerate();
     let mut all: Vec<(usize, Values<'a>)> = spectra
         .flat_map(|(i, spectrum)| spectrum.cases.iter().map(move |case| (i + 1, case)))

@@ -206,6 +206,13 @@ impl<'a> Map<'a> {
             .find(|to| to.kind == kind)
     }
 
+    /// The component of a type that refers to another one, such as the points of a set of data.
+    pub fn origin(&self, referenced: Id, kind: &str) -> Option<&'a Component> {
+        let origins = self.references.iter().filter(|(_, all)| all.contains(&referenced));
+        let mut origins = origins.filter_map(|(origin, _)| self.source.component(*origin));
+        origins.find(|origin| origin.kind == kind)
+    }
+
     /// The member of a gear, or of the shaft that carries a load.
     pub fn member_with(&self, part: Id) -> Option<Id> {
         self.members

@@ -53,12 +53,26 @@ pub enum Value {
     Text(String),
     /// An array.
     List(Vec<String>),
-    /// Matrices and arrays too long for a vector or a table: only results have them.
+    /// A matrix.
+    Rows(Vec<Vec<String>>),
+    /// Other values, and arrays and matrices that are too long.
     Other,
 }
 
-/// Arrays with more values become [`Value::Other`].
-pub const LONGEST_LIST: usize = 1000;
+/// Arrays with more values and matrices with more rows become [`Value::Other`]; the points of a flank are some thousands.
+pub const LONGEST_LIST: usize = 20_000;
+
+impl Value {
+    /// Rows of a matrix that is written as one list.
+    pub fn rows(self, columns: usize) -> Self {
+        match self {
+            Self::List(cells) if columns > 0 && cells.len() % columns == 0 => {
+                Self::Rows(cells.chunks(columns).map(<[String]>::to_vec).collect())
+            }
+            _ => Self::Other,
+        }
+    }
+}
 
 #[derive(Debug)]
 pub struct Relation {

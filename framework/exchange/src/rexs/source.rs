@@ -214,6 +214,21 @@ impl<'a> Source<'a> {
             .collect()
     }
 
+    /// Points, each with three coordinates, in the order u, v, w; `None` if there are none or one is wrong, which is reported. \[mm\]
+    pub fn points(&self, component: &Component, id: &str) -> Option<Vec<[f64; 3]>> {
+        let attribute = self.attribute(component, id)?;
+        let point = |cells: &Vec<String>| {
+            let numbers = cells
+                .iter()
+                .map(|cell| self.parsed(component, attribute, cell, Quantity::Length));
+            <[f64; 3]>::try_from(numbers.collect::<Option<Vec<f64>>>()?).ok()
+        };
+        match &attribute.value {
+            Value::Rows(rows) => rows.iter().map(point).collect(),
+            _ => None,
+        }
+    }
+
     /// Three numbers.
     pub fn vector(&self, component: &Component, id: &str) -> Option<[f64; 3]> {
         let attribute = self.attribute(component, id)?;

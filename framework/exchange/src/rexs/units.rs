@@ -11,6 +11,8 @@ pub enum Quantity {
     Roughness,
     /// \[deg\]
     Angle,
+    /// In rad unless stated. \[rad\]
+    RollAngle,
     /// \[N\]
     Force,
     /// Of a bearing; in kN unless stated. \[N\]
@@ -29,6 +31,8 @@ pub enum Quantity {
     Density,
     /// \[N/mm\]
     Stiffness,
+    /// \[N/mm\]
+    LineLoad,
     /// \[Nm/rad\]
     TiltingStiffness,
     /// \[GPa\]
@@ -52,8 +56,9 @@ pub enum Quantity {
 }
 
 use Quantity::{
-    Angle, Area, Conductivity, Density, Force, HeatCapacity, Length, LoadRating, Mass, Modulus, Moment, Number,
-    Percent, Power, Resistance, Roughness, Speed, Stiffness, Temperature, TiltingStiffness, Time, Viscosity,
+    Angle, Area, Conductivity, Density, Force, HeatCapacity, Length, LineLoad, LoadRating, Mass, Modulus, Moment,
+    Number, Percent, Power, Resistance, RollAngle, Roughness, Speed, Stiffness, Temperature, TiltingStiffness, Time,
+    Viscosity,
 };
 
 /// Unit as written in REXS, without spaces; quantity; factor to the unit of gearbox files. The first unit of a quantity is that of the
@@ -67,6 +72,9 @@ const UNITS: &[(&str, Quantity, f64)] = &[
     ("deg", Angle, 1.0),
     ("°", Angle, 1.0),
     ("rad", Angle, 180.0 / std::f64::consts::PI),
+    ("rad", RollAngle, 1.0),
+    ("deg", RollAngle, std::f64::consts::PI / 180.0),
+    ("°", RollAngle, std::f64::consts::PI / 180.0),
     ("N", Force, 1.0),
     ("kN", Force, 1e3),
     ("kN", LoadRating, 1e3),
@@ -88,6 +96,8 @@ const UNITS: &[(&str, Quantity, f64)] = &[
     ("kg/m^3", Density, 1.0),
     ("N/m", Stiffness, 1e-3),
     ("N/mm", Stiffness, 1.0),
+    ("N/mm", LineLoad, 1.0),
+    ("N/m", LineLoad, 1e-3),
     ("Nmm/rad", TiltingStiffness, 1e-3),
     ("Nm/rad", TiltingStiffness, 1.0),
     ("MPa", Modulus, 1e-3),
@@ -134,6 +144,7 @@ fn written_otherwise(value: f64, unit: &str, quantity: Quantity) -> Option<f64> 
         Length => "mm",
         Roughness => "um",
         Angle => "deg",
+        RollAngle => "rad",
         Force | LoadRating => "N",
         Moment => "Nm",
         Power => "W",
@@ -141,7 +152,7 @@ fn written_otherwise(value: f64, unit: &str, quantity: Quantity) -> Option<f64> 
         Temperature => "degC",
         Viscosity => "mm2/s",
         Density => "kg/m3",
-        Stiffness => "N/mm",
+        Stiffness | LineLoad => "N/mm",
         TiltingStiffness => "Nm/rad",
         Modulus => "GPa",
         Time => "h",

@@ -208,21 +208,27 @@ fn value(node: Node<'_, '_>) -> Value {
     let Some(content) = elements(node).next() else {
         return Value::Text(node.text().unwrap_or_default().trim().to_owned());
     };
-    if content.tag_name().name() != "array" {
-        return Value::Other;
+    let coded = |code| coded::array(code, content.text().unwrap_or_default());
+    match (content.tag_name().name(), content.attribute("code")) {
+        ("array", Some(code)) => coded(code),
+        ("array", None) => cells(content).map_or(Value::Other, Value::List),
+        ("matrix", Some(code)) => coded(code).rows(text_of(content, "columns").parse().unwrap_or(0)),
+        ("matrix", None) => {
+            let rows: Option<Vec<Vec<String>>> = elements(content).take(LONGEST_LIST + 1).map(cells).collect();
+            rows.filter(|rows| rows.len() <= LONGEST_LIST)
+                .map_or(Value::Other, Value::Rows)
+        }
+        _ => Value::Other,
     }
-    if let Some(code) = content.attribute("code") {
-        return coded::array(code, content.text().unwrap_or_default());
-    }
-    let cells: Vec<String> = elements(content)
+}
+
+/// The texts of an array, or of a row; `None` if it is too long.
+fn cells(node: Node<'_, '_>) -> Option<Vec<String>> {
+    let cells: Vec<String> = elements(node)
         .take(LONGEST_LIST + 1)
         .map(|cell| cell.text().unwrap_or_default().trim().to_owned())
         .collect();
-    if cells.len() > LONGEST_LIST {
-        Value::Other
-    } else {
-        Value::List(cells)
-    }
+    (cells.len() <= LONGEST_LIST).then_some(cells)
 }
 
 fn spectrum(builder: &mut Builder, node: Node<'_, '_>) {

@@ -273,9 +273,20 @@ fn meshes(text: &mut String, meshes: &[Mesh]) {
             .quantity_if("centre_distance", mesh.centre_distance, "mm")
             .quantity_if("elastic_modulus", mesh.modulus, "GPa")
             .quantity_if("poisson", mesh.poisson, "")
-            .word_if("lubricant", mesh.lubricant.as_ref());
+            .word_if("lubricant", mesh.lubricant.as_ref())
+            .word_if("model", mesh.shares.as_ref().map(with_shares));
         line(text, &mesh.id, entry, &mesh.comment);
     }
+}
+
+/// A model that takes the loads on the teeth from a file.
+fn with_shares(file: &String) -> String {
+    let shares = Entry::default().word("type", "file").word("path", file).text();
+    Entry::default()
+        .word("type", "path_integral")
+        .word("load_sharing", shares)
+        .word("tooth_friction", "{ type: xu }")
+        .text()
 }
 
 fn crossed(text: &mut String, meshes: &[CrossedMesh]) {

@@ -59,6 +59,8 @@ pub enum FieldKind {
     Bearing,
     /// Designation of an oil.
     Oil,
+    /// Designation of a material.
+    Material,
     /// One of several words.
     Choice,
 }

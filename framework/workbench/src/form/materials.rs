@@ -6,19 +6,16 @@ use gearloss_editor::outline::Node;
 
 use super::fields::{Field, FieldKind, at};
 
-/// Designations of the catalogue of materials to choose from.
-const CHOICES: &[&str] = &["", "steel", "POM", "PA66"];
-
 /// The field of a gear.
 pub(super) fn field(gear: &str) -> Field {
     Field {
         path: format!("gears.{gear}.material"),
         label: format!("Material of {gear}"),
-        kind: FieldKind::Choice,
+        kind: FieldKind::Material,
         value: String::new(),
-        help: "steel if not stated; others of the catalogue may be written in the text".to_owned(),
-        choices: CHOICES,
-        example: Some(""),
+        help: "of the catalogue; steel if not stated".to_owned(),
+        choices: &[],
+        example: Some("POM"),
     }
 }
 

@@ -271,7 +271,9 @@ fn scalar(typed: &str, kind: FieldKind) -> String {
     let is_text = !typed.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
     match kind {
         FieldKind::Integer | FieldKind::Quantity | FieldKind::Number if plain => typed.to_owned(),
-        FieldKind::Text | FieldKind::Oil | FieldKind::Choice if plain && is_text => typed.to_owned(),
+        FieldKind::Text | FieldKind::Oil | FieldKind::Material | FieldKind::Choice if plain && is_text => {
+            typed.to_owned()
+        }
         _ => quoted(typed),
     }
 }

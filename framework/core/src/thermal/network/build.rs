@@ -11,7 +11,7 @@ use crate::document::Diagnostic;
 use crate::lubricant::Lubricant;
 use crate::machine::Machine;
 use crate::mechanism::heat_dissipation::HousingPart;
-use crate::mechanism::heat_link::{GearShape, HeatLink, HeatLinkPart};
+use crate::mechanism::heat_link::{GearMaterial, GearShape, HeatLink, HeatLinkPart};
 use crate::registry::Build;
 use crate::transmission::{AMBIENT, GearSeat, NodeNames};
 
@@ -23,6 +23,8 @@ pub(crate) struct Around<'a> {
     pub members: &'a [String],
     /// Gears.
     pub gears: &'a [GearSeat],
+    /// Numbers of the gears of each mesh.
+    pub meshes: Vec<[usize; 2]>,
     /// Oils by name; empty if one has a fault that was reported.
     pub lubricants: &'a [(String, Arc<Lubricant>)],
     /// The outside of the housing.
@@ -216,7 +218,10 @@ fn law(
         (None, Some(choice)) => {
             let part = HeatLinkPart {
                 housing: Some(*around.housing),
-                gear: gear.flatten().filter(|g| g.diameters[0] > 0.0).map(shape),
+                gear: gear
+                    .flatten()
+                    .filter(|g| g.diameters[0] > 0.0)
+                    .map(|gear| shape(gear, mate(gear, between, around))),
             };
             let part = build.part_again(path, part);
             match build.slot_at::<HeatLink>(&format!("{path}.model"), &part, &choice.value) {
@@ -257,8 +262,22 @@ fn law(
     })
 }
 
-/// A gear in the form used by heat models.
-fn shape(gear: &GearSeat) -> GearShape {
+/// The gear that meshes with one and has one of these nodes, the first of several; else the first that meshes with it.
+fn mate<'a>(gear: &GearSeat, nodes: [Option<usize>; 2], around: &Around<'a>) -> Option<&'a GearSeat> {
+    let own = around.names.of_gear(&gear.id);
+    let others = around.meshes.iter().filter_map(|pair| {
+        let place = pair.iter().position(|of| around.gears[*of].id == gear.id)?;
+        Some(&around.gears[pair[1 - place]])
+    });
+    let in_the_link = |other: &&GearSeat| {
+        let node = around.names.of_gear(&other.id);
+        node.is_some() && node != own && nodes.contains(&node)
+    };
+    others.clone().find(in_the_link).or_else(|| others.clone().next())
+}
+
+/// A gear and its mate in the form used by heat models.
+fn shape(gear: &GearSeat, mate: Option<&GearSeat>) -> GearShape {
     let [pitch, tip, root] = gear.diameters;
     GearShape {
         teeth: gear.z,
@@ -266,6 +285,10 @@ fn shape(gear: &GearSeat) -> GearShape {
         tip_diameter: tip,
         tooth_height: 0.5 * (tip - root).abs(),
         facewidth: gear.facewidth,
+        material: gear.material.map_or_else(GearMaterial::default, GearMaterial::from),
+        mate: mate
+            .and_then(|mate| mate.material)
+            .map_or_else(GearMaterial::default, GearMaterial::from),
     }
 }
 
