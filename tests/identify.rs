@@ -615,3 +615,105 @@ fn what_cannot_be_identified_is_reported_with_its_place_and_how_to_fix_it() {
         "{text}"
     );
 }
+
+/// Means over cycles of the example with a thicker oil and less friction of the teeth: over all losses, of the teeth over all, and with half
+/// the viscosity over the viscosity as it is.
+const LOADS: &str = "cycles: { loads: { spectrum: [{ torque: 20 Nm, speed: 3000 rpm, share: 0.75 }, { torque: 60 Nm, speed: 2000 rpm, share: 0.25 }] } }";
+
+fn means(values: [String; 3], parameters: &str) -> String {
+    let [all, teeth, thin] = values;
+    study(&format!(
+        "{LOADS}
+analyses:
+  fit:
+    type: identify
+    gear: first
+    means:
+      all: {{ drive: {{ cycles: [loads] }}, {all}, accuracy: 0.1 W, source: made up }}
+      teeth: {{ drive: {{ cycles: [loads] }}, mechanism: gear_mesh, relative_to: {{ mechanism: all }}, {teeth}, accuracy: 0.001 }}
+      thin: {{ drive: {{ cycles: [loads] }}, set: {{ lubricants.sump.viscosity.kv100: 5 mm2/s }}, relative_to: {{ set: {{}} }}, {thin}, accuracy: 0.001 }}
+    starts: 2
+    parameters: {parameters}
+"
+    ))
+}
+
+#[test]
+fn means_of_cycles_find_what_was_hidden() {
+    let truth = study(&format!(
+        "{LOADS}
+model_sets:
+  hidden: {{ set: {{ bearings.*.loss_factor: 1.3, meshes.*.loss_factor: 0.9 }} }}
+  thin: {{ extends: hidden, set: {{ lubricants.sump.viscosity.kv100: 5 mm2/s }} }}
+analyses:
+  truth: {{ type: cycle, cycles: [loads], gear: first, model_sets: [hidden, thin] }}
+"
+    ));
+    let (truth, _) = run(&truth, &[]);
+    let cycles = truth.json("truth")["cycles"].clone();
+    let loss = |i: usize| cycles[i]["mean_loss_w"].as_f64().unwrap();
+    let shares = cycles[0]["shares"].as_array().unwrap();
+    let place = shares.iter().position(|share| share == "gear_mesh").unwrap();
+    let teeth = cycles[0]["mean_losses_w"][place].as_f64().unwrap();
+    let value = |x: f64| format!("value: {x}");
+    let parameters = "{ bearings: { path: bearings.*.loss_factor, from: 0.5, to: 2 }, meshes: { path: meshes.*.loss_factor, from: 0.5, to: 2 } }";
+    let stated = [value(loss(0)), value(teeth / loss(0)), value(loss(1) / loss(0))];
+    let (found, text) = run(&means(stated, parameters), &[]);
+    let fit = first(&found, "fit");
+    for (k, truth) in [1.3, 0.9].into_iter().enumerate() {
+        let value = fit["parameters"][k]["value"].as_f64().unwrap();
+        assert!((value / truth - 1.0).abs() < 1e-5, "{value} {truth}");
+        assert_eq!(
+            fit["parameters"][k]["verdict"]["kind"]
+                .as_str()
+                .or(fit["parameters"][k]["verdict"].as_str()),
+            Some("well_determined"),
+            "{}",
+            fit["parameters"][k]
+        );
+    }
+    assert!(fit["points"].as_array().unwrap().is_empty());
+    let records = fit["means"].as_array().unwrap();
+    assert_eq!(records.len(), 3);
+    assert_eq!(records[0]["unit"], "W");
+    assert_eq!(records[1]["unit"], "-");
+    assert!(
+        records
+            .iter()
+            .all(|mean| mean["residual"].as_f64().unwrap().abs() < 0.01),
+        "{records:?}"
+    );
+    assert!(
+        records[1]["residual_before"].as_f64().unwrap().abs() > 10.0,
+        "{records:?}"
+    );
+    // Two parameters take two of three means.
+    let leverage: f64 = records.iter().map(|mean| mean["leverage"].as_f64().unwrap()).sum();
+    assert!((leverage - 2.0).abs() < 1e-6, "{leverage}");
+    let row = text.lines().find(|line| line.starts_with("teeth")).unwrap();
+    assert!(row.contains(" 0.5934 ") && row.contains(" 0.6596 "), "{row}");
+    assert_eq!(found.csv("fit-means").lines().count(), 4);
+}
+
+/// A range pulls only from outside of it, and a mean that no parameter reaches is named.
+#[test]
+fn ranges_of_means_hold_or_are_named() {
+    let parameters = "{ bearings: { path: bearings.*.loss_factor, from: 0.5, to: 2, start: 1.2 } }";
+    let wide = ["from: 1 W, to: 1e6 W", "from: 0.01", "to: 100"].map(str::to_owned);
+    let (found, _) = run(&means(wide, parameters), &[]);
+    let fit = first(&found, "fit");
+    assert!(
+        fit["means"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|mean| mean["residual"] == 0.0)
+    );
+    assert_eq!(fit["misfit"]["objective"], 0.0);
+    assert_eq!(fit["parameters"][0]["value"], 1.2);
+    let narrow = ["from: 1 W", "from: 0.01", "to: 0.01"].map(str::to_owned);
+    let (found, text) = run(&means(narrow, parameters), &[]);
+    assert!(first(&found, "fit")["means"][2]["residual"].as_f64().unwrap() > 100.0);
+    let row = text.lines().find(|line| line.starts_with("thin")).unwrap();
+    assert!(row.contains("at most 0.01") && row.contains("985.8"), "{row}");
+}

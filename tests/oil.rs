@@ -478,7 +478,7 @@ fn solved<T>(t: &Transmission, speed: f64, oil: f64, inclination: f64, read: imp
     read(&t.evaluate(&case, &point, &[oil], &mut scratch))
 }
 
-/// What a level at rest costs that is taken for the one while rotating, by two laws in first gear at 6000 rpm.
+/// What a level at rest costs that is taken for the one while rotating, by three laws in first gear at 6000 rpm.
 #[test]
 fn the_level_at_rest_of_the_two_speed_example_is_open() {
     let language = language();
@@ -504,6 +504,7 @@ fn the_level_at_rest_of_the_two_speed_example_is_open() {
     for (law, low, high) in [
         ("{ type: iso14179_2, speed_of: pinion }", "36.1", "152.9"),
         (LYON, "5.29", "14.10"),
+        ("{ type: shore }", "2.49", "5.28"),
     ] {
         for (level, expected) in [("level: -49 mm", low), ("level: -9.2 mm", high)] {
             let decimals = expected.split('.').nth(1).unwrap().len();
@@ -601,4 +602,93 @@ fn pockets_windows_and_ribs_are_in_the_balance() {
         }
         assert!(own.on_gears > 0.0 && own.on_gears < 5e-6, "{own:?}");
     }
+}
+
+/// Churning of the drive unit without swell and with one level for all gears: that of its file, and that of its volume in the hull of its gears.
+#[test]
+fn the_level_of_the_drive_unit_decides_its_churning() {
+    let language = language();
+    let gearbox = Gearbox::read(&language, &file("examples/electric-drive-unit/gearbox.yaml")).unwrap();
+    let t = gearbox.transmission(&language, &Choice::default()).unwrap();
+    let space = t.oil_space().unwrap().at(0.0);
+    assert_eq!(format!("{:.2}", 1e3 * space.volume(-91.79e-3)[0]), "0.47");
+    for (level, watts) in [("-91.79 mm", "14.2"), ("-39.2 mm", "76.4")] {
+        let choice = Choice::default()
+            .with("housing.oil.level", level)
+            .with("gears.W1.level", level)
+            .with("gears.*.drag.churning.swell", 0.0);
+        let t = gearbox.transmission(&language, &choice).unwrap();
+        let case = t.case(&t.states()[0].name, &["input"], &["input"]).unwrap();
+        let mut scratch = t.scratch(&case);
+        let point = Point {
+            speeds: &[8000.0 * std::f64::consts::PI / 30.0],
+            torques: &[20.0],
+            ..Point::default()
+        };
+        let solution = t.evaluate(&case, &point, &[60.0], &mut scratch);
+        let drags = solution.parts().filter(|(part, _)| part.mechanism == "gear_drag");
+        let churning: f64 = drags.map(|(_, loss)| loss.watts()).sum();
+        assert_eq!(format!("{churning:.1}"), watts, "{level}");
+    }
+}
+
+/// A text of the slow example with a second oil, whose pocketed bearing has one of the two and catches a stated flow.
+fn with_pocket(lubricant: &str, wetting: &str) -> String {
+    let text = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+    let pocket = format!(
+        "pocket: {{ edge: 5 mm, edge_radius: 15 mm, length: 12 mm, catch: {{ width: 40 mm, walls: 400 mm{wetting} }} }}"
+    );
+    text.replace("volume: 0.06 l, level: -38 mm", "volume: 0.1 l")
+        .replace(
+            "lubricants:\n",
+            "lubricants:\n  grade: { viscosity: { kv40: 320 mm2/s, kv100: 24 mm2/s } }\n",
+        )
+        .replace(
+            "at: 0 mm,  designation: \"6206\", axial: both }",
+            &format!("at: 0 mm,  designation: \"6206\", axial: both, lubricant: {lubricant}, {pocket} }}"),
+        )
+}
+
+/// What stands in a pocket is missing from the sump only if it is the oil of the sump.
+#[test]
+fn pockets_of_another_oil_are_not_subtracted() {
+    let of = |lubricant: &str| {
+        let t = of_text(&with_pocket(lubricant, ", wetting: 1 l/min"));
+        solved(&t, 3000.0, 80.0, 0.0, |solution| {
+            let height = solution.pockets().next().unwrap().height;
+            let levels = solution.oil_levels().unwrap();
+            (height, levels.running, levels.estimate.unwrap().in_pockets)
+        })
+    };
+    let text = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
+    let bare = of_text(&text.replace("volume: 0.06 l, level: -38 mm", "volume: 0.1 l"));
+    let without = solved(&bare, 3000.0, 80.0, 0.0, |solution| {
+        solution.oil_levels().unwrap().running
+    });
+    let (height, running, in_pockets) = of("oil");
+    assert!(
+        height > 5e-3 && in_pockets > 1e-6 && running < without,
+        "{height} {running} {without} {in_pockets}"
+    );
+    let (height, running, in_pockets) = of("grade");
+    assert!(height > 5e-3, "{height}");
+    assert_eq!((running.to_bits(), in_pockets), (without.to_bits(), 0.0));
+}
+
+/// Gears of the sump cannot fill the pocket of a bearing with another oil.
+#[test]
+fn gears_throw_the_oil_of_the_sump() {
+    let language = language();
+    let read = |text: &str| {
+        let files = InMemory::default().shared();
+        let gearbox = Gearbox::from_text(&language, &files, text, "gearbox.yaml", Path::new("")).unwrap();
+        gearbox.transmission(&language, &Choice::default())
+    };
+    assert!(read(&with_pocket("oil", "")).is_ok());
+    let found = read(&with_pocket("grade", "")).err().unwrap();
+    let [error] = &found.list[..] else {
+        panic!("{}", found.render())
+    };
+    assert_eq!(error.path, "bearings.left_out.pocket.catch");
+    assert!(error.message.contains("another lubricant"), "{}", error.message);
 }

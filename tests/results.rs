@@ -37,7 +37,9 @@ const OPEN: [&str; 7] = [
 ];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 35] = [
+const OPTIONAL: [&str; 37] = [
+    "means",
+    "source",
     "planets",
     "elastic_modulus_gpa",
     "reduced_modulus_gpa",

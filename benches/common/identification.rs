@@ -59,7 +59,8 @@ impl Prepared {
         };
         let entry = entry.clone();
         let bind: Vec<&str> = entry.bind.ids().collect();
-        let (measured, _) = study.measured("data", &entry.data, &bind)?;
+        let data = entry.data.as_ref().ok_or("the identification has no data")?;
+        let (measured, _) = study.measured("data", data, &bind)?;
         Ok(Self {
             language,
             study,

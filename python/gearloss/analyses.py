@@ -52,36 +52,51 @@ def cycle(
 
 def identify(
     gearbox: Gearbox,
-    measured: Union[Mapping[str, Any], Columns],
+    measured: Union[Mapping[str, Any], Columns, None],
     parameters: Mapping[str, Any],
     *,
     models: Union[str, None] = None,
     set: Union[Mapping[str, Any], None] = None,
     oil_temperature: Union[Quantity, None] = None,
+    cycles: Union[Mapping[str, Any], None] = None,
+    vehicle: Union[Mapping[str, Any], None] = None,
     **options: Any,
 ) -> Outcome:
-    """Values of uncertain parameters from measured points, with intervals, correlations and verdicts.
+    """Values of uncertain parameters from measured points and means over cycles, with intervals, correlations and verdicts.
 
     Args:
         gearbox: the gearbox.
         measured: an entry as under `measurements` of a study, such as ``{"file": "rig.csv", "rig": {...}}``; or columns as in such a file:
-            ``{"torque [Nm]": ..., "speed [rpm]": ..., "loss [W]": ...}``, a data frame.
+            ``{"torque [Nm]": ..., "speed [rpm]": ..., "loss [W]": ...}``, a data frame; `None` if only `means` are fitted.
         parameters: by name, a tuple of path, least and greatest value: ``("gears.*.surface.rq", "0.1 um", "1 um")``; or an entry as
             under `parameters` of a study.
         models: a model set of the gearbox or of gearloss.
         set: overrides, as of `Gearbox.transmission`.
         oil_temperature: in degC, where the points state none.
-        options: further keys of the analysis, such as ``starts=8``, ``hold_out="torque > 19 Nm"``.
+        cycles: entries as under `cycles` of a study by name, for `means`; the name of a shipped cycle is an entry, too.
+        vehicle: an entry as under `vehicles` of a study, for cycles with the speed of a vehicle only.
+        options: further keys of the analysis, such as ``starts=8``, ``hold_out="torque > 19 Nm"``, ``means={...}``.
 
     Raises:
         Findings: everything that is wrong with the arguments.
     """
-    entry, files = _entry(measured, "measured.csv", shipped=False)
+    sections: dict[str, Any] = {}
+    files: dict[str, str] = {}
+    analysis: dict[str, Any] = {"type": "identify"}
+    if measured is not None:
+        entry, files = _entry(measured, "measured.csv", shipped=False)
+        sections["measurements"] = {"measured": entry}
+        analysis["data"] = "measured"
+    for name, given in (cycles or {}).items():
+        entry, more = _entry(given, f"{name}.csv", shipped=True)
+        sections.setdefault("cycles", {})[name] = entry
+        files |= more
+    if vehicle is not None:
+        sections["vehicles"] = {"vehicle": dict(vehicle)}
     unknowns = {
         name: dict(own) if isinstance(own, Mapping) else dict(zip(("path", "from", "to"), own)) for name, own in parameters.items()
     }
-    analysis = {"type": "identify", "data": "measured", "parameters": unknowns, **options}
-    sections = {"measurements": {"measured": entry}}
+    analysis |= {"parameters": unknowns, **options}
     return _run(gearbox, "identify", analysis, sections, files, models, set, oil_temperature)
 
 

@@ -95,3 +95,14 @@ def test_wrong_arguments_are_errors(gearbox):
         gl.identify(gearbox, [1, 2], VISCOSITY)
     with pytest.raises(gl.Findings, match="no `oil`|`oil`"):
         gl.identify(gearbox, {"torque [Nm]": [1], "speed [rpm]": [1], "loss [W]": [1]}, {"x": ("lubricants.oil.viscosity.factor", 0.5, 2)})
+
+
+def test_identify_from_means_over_cycles(gearbox):
+    loads = {"spectrum": [{"torque": "20 Nm", "speed": "3000 rpm", "share": 1}]}
+    given = {"gear": "first", "oil_temperature": 60}
+    hidden = gl.cycle(gearbox, loads, set={"meshes.*.loss_factor": 1.2}, **given).to_dict()["cycles"][0]["mean_loss_w"]
+    means = {"loads": {"drive": {"cycles": ["loads"]}, "value": hidden, "accuracy": "1 W"}}
+    unknown = {"factor": ("meshes.*.loss_factor", 0.5, 2)}
+    outcome = gl.identify(gearbox, None, unknown, cycles={"loads": loads}, means=means, starts=1, **given)
+    assert outcome.tables["identify-parameters"]["fitted"][0] == pytest.approx(1.2, rel=1e-6)
+    assert outcome.tables["identify-means"]["mean"] == ["loads"]

@@ -53,8 +53,8 @@ gearloss_framework::document::codes! {
         cause: "A parameter or input names a path that is not a number or has no value, or has a range outside that of the path.",
         help: "Correct `path`, `from` and `to`.";
     IDENTIFICATION = "E0603", "invalid identification",
-        cause: "There are too few points for the parameters, or residuals and parameters are not compatible with the data.",
-        help: "Give more points, or identify fewer parameters.";
+        cause: "There are too few points or means for the parameters, residuals and parameters are not compatible with the data, or a mean over cycles states no loss and no ratio of losses.",
+        help: "Give more points, identify fewer parameters, or correct the key that the message names.";
     HOLD_OUT = "E0604", "invalid selection of held-out rows or folds",
         cause: "The rule for held-out rows or folds matches no rows, all rows, or rows without the quantity.",
         help: "Correct `hold_out` or `folds`.";

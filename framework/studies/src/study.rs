@@ -31,7 +31,8 @@ pub use drive::{DriveEntry, RideEntry};
 pub use files::Study;
 pub use gear::{BEST, Choose, ChosenGear, CycleGear};
 pub use identify::{
-    FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, OverEntry, PriorEntry, ScaleEntry,
+    FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows, IdentifiedEntry, MeanEntry, OverEntry, PriorEntry, RelativeTo,
+    ScaleEntry,
 };
 pub use limits::{LimitEntry, LimitedQuantity, Severity};
 pub use names::is_device;

@@ -27,6 +27,8 @@ pub struct Chamber {
     pub height: Option<f64>,
     /// Number of its oil.
     pub oil: u16,
+    /// True if its oil is that of the sump, which lacks it.
+    pub of_sump: bool,
     /// Chamber into which it drains, by number; the sump without.
     pub into: Option<usize>,
 }
@@ -54,6 +56,8 @@ pub struct Pocket {
     pub room: Option<Room>,
     /// Number of its oil.
     pub oil: u16,
+    /// True if its oil is that of the sump, which lacks it.
+    pub of_sump: bool,
 }
 
 /// The space of a pocket between a bearing and its cover or seal: a ring around the shaft.
@@ -216,10 +220,10 @@ impl Hydraulics {
         self.fill_pockets(at, work);
     }
 
-    /// Oil that stands in chambers. \[m3\]
+    /// Oil of the sump that stands in chambers. \[m3\]
     pub(crate) fn held<R: Points>(&self, work: &Work<R>, at: &Inputs<'_, R>) -> R {
         let mut held = R::ZERO;
-        for (number, chamber) in self.chambers.iter().enumerate() {
+        for (number, chamber) in self.chambers.iter().enumerate().filter(|(_, chamber)| chamber.of_sump) {
             let flow = self.through(number, work);
             let fluid = self.aerated(&at.oils[chamber.oil as usize]);
             let head = chamber.drain.pressure(flow, fluid.eta, fluid.rho) / (fluid.rho * GRAVITY);
@@ -297,6 +301,7 @@ mod tests {
             window: None,
             room: None,
             oil: 0,
+            of_sump: true,
         };
         for (nu, heights) in [
             (1e-5, [5.282_09, 10.2526, 12.2371, 17.2800]),

@@ -434,7 +434,7 @@ mod tests {
             radii: [10e-3, 20e-3],
             swirl: 0.0,
         };
-        let network = Hydraulics {
+        let mut network = Hydraulics {
             elements: vec![element([End::Sump, End::Open], rotating)],
             ..Hydraulics::default()
         };
@@ -452,6 +452,14 @@ mod tests {
         let [torque, _] = Hydraulics::torque(&network.elements[0], L_MIN, 0.0, &at);
         close(torque, 3.476_70e-3, 6);
         close(torque * speeds[0], 2.184_47, 6);
+        // 5 l/min that leave at 40 mm and 18000 rpm take 393 W.
+        if let Law::Rotating { radii, .. } = &mut network.elements[0].law {
+            radii[1] = 40e-3;
+        }
+        let speeds = [18000.0 * std::f64::consts::PI / 30.0];
+        let at = Inputs { speeds: &speeds, ..at };
+        let [torque, _] = Hydraulics::torque(&network.elements[0], 5.0 * L_MIN, 0.0, &at);
+        close(torque * speeds[0], 393.2, 4);
     }
 
     #[test]

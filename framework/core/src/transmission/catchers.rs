@@ -43,7 +43,8 @@ impl<R: Points> Catchers<R> for Pockets<'_, R> {
             if let Some(rib) = &pocket.rib {
                 caught.bare += rib.bare(length);
             }
-            if let Some(room) = &pocket.room {
+            // What stands in a pocket of another oil is not missing from the sump.
+            if let Some(room) = pocket.room.as_ref().filter(|_| pocket.of_sump) {
                 let rib = pocket.rib.map_or(T::ZERO, |rib| wetting * rib.share(length));
                 let inflow = of(pocket.fed(self.work)) + rib + through(pocket);
                 let fluid = self.network.aerated(&self.oils[pocket.oil as usize]).map(of);

@@ -228,6 +228,7 @@ impl Names<'_, '_> {
                 holes: [chamber.drain_x, chamber.drain_y],
                 height: chamber.height,
                 oil: oil.unwrap_or(0),
+                of_sump: oil.is_some_and(|oil| oils.is_of_sump(oil)),
                 into: into[i].and_then(|into| order.iter().position(|known| *known == into)),
             });
         }
@@ -655,6 +656,18 @@ fn seated_pocket(
             .help("state `walls`, or remove `wetting` to have both from the oil space"),
         );
     }
+    let of_sump = oils.is_of_sump(pocket.oil);
+    for (key, is_stated) in [("catch", caught.is_some()), ("window", window.is_some())] {
+        if is_stated && !of_sump {
+            found.push(
+                Diagnostic::error(
+                    format!("{path}.{key}"),
+                    "gears throw the oil of the housing into the pocket, but the bearing has another lubricant",
+                )
+                .help(format!("remove `lubricant` of the bearing, or `{key}`")),
+            );
+        }
+    }
     let path_of_window = format!("{path}.window");
     let window = window.map(|window| seated_window(&window, &path_of_window, around, oils));
     let window = window.transpose().map_err(|error| found.push(error)).ok().flatten();
@@ -682,6 +695,7 @@ fn seated_pocket(
         window,
         room,
         oil: pocket.oil,
+        of_sump,
     })
 }
 

@@ -276,6 +276,13 @@ impl<'a> OilNumbers<'a> {
         oils
     }
 
+    /// True if an oil is the lubricant of the housing, at whatever temperature.
+    pub fn is_of_sump(&self, oil: u16) -> bool {
+        self.spots
+            .get(oil as usize)
+            .is_some_and(|(lubricant, ..)| Some(*lubricant) == self.default)
+    }
+
     /// Finds level at rest and volume from each other, and compares them if both are stated. \[degC\]
     fn settle(&mut self, oil: &OilEntry, temperature: f64) {
         self.volume = oil.volume;

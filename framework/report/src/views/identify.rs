@@ -2,6 +2,7 @@
 
 mod compare;
 mod hold_out;
+mod means;
 mod next;
 mod parameters;
 mod pictures;
@@ -28,13 +29,15 @@ const ROUNDING: f64 = 1e-6;
 fn show(outcome: &IdentifyOutcome, page: &mut Page) {
     summary::add(outcome, page);
     let name = &outcome.head.analysis;
-    for note in &outcome.data.notes {
-        page.line(format!("{name}: {}: {note}", outcome.data.file));
+    if let Some(data) = &outcome.data {
+        for note in &data.notes {
+            page.line(format!("{name}: {}: {note}", data.file));
+        }
     }
-    if let Some(held) = &outcome.held_out {
+    if let Some((held, data)) = outcome.held_out.as_ref().zip(outcome.data.as_ref()) {
         page.line(format!(
             "{name}: {} of {} rows are held out ({})",
-            held.rows, outcome.data.points, held.words
+            held.rows, data.points, held.words
         ));
         if held.undecided > 0 {
             page.line(format!(
@@ -82,6 +85,7 @@ fn show_set(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mut Page)
     let name = &outcome.head.analysis;
     search::show(name, o, page);
     parameters::misfit(name, o, page);
+    means::show(o, page);
     parameters::show(o, page);
     posterior::show(name, o, page);
     for parameter in &o.parameters {
@@ -116,9 +120,19 @@ fn resolved(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         Some(c) => format!("condition number {c:.0}"),
     };
     page.verdict(format!(
-        "{name}: the points identify {} of {count} combinations of free parameters ({condition})",
+        "{name}: the {} identify {} of {count} combinations of free parameters ({condition})",
+        measured(o),
         o.resolved_combinations
     ));
+}
+
+/// What is measured, in a word.
+fn measured(o: &IdentificationOfSet) -> &'static str {
+    match (o.points.is_empty(), o.means.is_empty()) {
+        (_, true) => "points",
+        (true, false) => "means",
+        (false, false) => "points and means",
+    }
 }
 
 /// The prediction errors of groups of rows from fits to the others.

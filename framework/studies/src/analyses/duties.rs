@@ -481,15 +481,15 @@ impl Unfinished {
 }
 
 impl Duties<'_> {
-    /// Drives every cycle to its end.
+    /// Drives every cycle to its end, unless it should not continue.
     ///
     /// # Errors
     /// If one cannot be driven to its end.
-    pub fn drive_all(&self, engine: &Engine<'_>, t: &Transmission) -> Result<Vec<Driven>, Unfinished> {
+    pub fn drive_all(&self, t: &Transmission, should_continue: &dyn Fn() -> bool) -> Result<Vec<Driven>, Unfinished> {
         let mut all = Vec::new();
         for read in &self.list {
             let driven = self
-                .drive(t, read, &|_| engine.should_continue())
+                .drive(t, read, &|_| should_continue())
                 .map_err(|list| list.first().map_or_else(String::new, |d| d.message.clone()))?
                 .ok_or_else(|| "interrupted".to_owned())?;
             if let Some((time, why)) = &driven.broken {
@@ -511,7 +511,7 @@ impl Duties<'_> {
         by: By,
         names: &[String],
     ) -> Result<(Vec<MeanLoss>, Left), Unfinished> {
-        Ok(self.mean_losses_of(t, &self.drive_all(engine, t)?, by, names))
+        Ok(self.mean_losses_of(t, &self.drive_all(t, &|| engine.should_continue())?, by, names))
     }
 
     /// Mean losses of driven cycles, as [`Duties::mean_losses`].

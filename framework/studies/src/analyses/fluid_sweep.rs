@@ -337,7 +337,10 @@ impl Search<'_> {
     /// Mean loss of each cycle, limited quantities, and quantities outside their stated ranges.
     fn mean_losses(&self, overrides: Vec<(String, Value)>) -> Result<(Vec<MeanLoss>, Vec<f64>, Left), String> {
         let (t, ratings) = built(&self.trial, self.limits, overrides)?;
-        let driven = self.duties.drive_all(self.engine, &t).map_err(Unfinished::text)?;
+        let driven = self
+            .duties
+            .drive_all(&t, &|| self.engine.should_continue())
+            .map_err(Unfinished::text)?;
         let limited = values(self.limits, self.duties, &t, ratings.as_ref(), &driven)?;
         let (losses, left) = self.duties.mean_losses_of(&t, &driven, self.entry.by, self.names);
         Ok((losses, limited, left))

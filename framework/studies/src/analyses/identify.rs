@@ -1,4 +1,4 @@
-//! Identification of uncertain parameters from measured points.
+//! Identification of uncertain parameters from measured points and means over cycles.
 
 pub mod checks;
 pub mod compare;
@@ -8,6 +8,7 @@ mod folds;
 pub mod found;
 pub mod hold_out;
 pub mod lines;
+pub mod means;
 pub mod next;
 pub mod outcome;
 pub mod parameter;
@@ -69,7 +70,7 @@ impl Analysis for IdentifyEntry {
             ..Uses::new(self.gearbox.as_ref(), &self.model_sets)
                 .in_gears(&self.gear)
                 .bind(&self.bind)
-                .with("data", Some(&self.data))
+                .with("data", self.data.as_ref())
         }
     }
 
@@ -82,15 +83,19 @@ impl Analysis for IdentifyEntry {
     }
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<IdentifyPlan<'a>, Stopped> {
-        let data = format!("{}.data", cx.path());
-        let bind: Vec<&str> = self.bind.ids().collect();
-        let measured = cx.read(&data, &self.data, &bind)?;
-        let file = cx.data(&data, &self.data)?.file.to_string();
         refuse(cx, self)?;
-        let points = Points {
-            held_out: held_out(cx, self, &measured)?,
-            measured,
-            file,
+        let points = match &self.data {
+            None => Points::default(),
+            Some(data) => {
+                let at = format!("{}.data", cx.path());
+                let bind: Vec<&str> = self.bind.ids().collect();
+                let measured = cx.read(&at, data, &bind)?;
+                Points {
+                    file: cx.data(&at, data)?.file.to_string(),
+                    held_out: held_out(cx, self, &measured)?,
+                    measured,
+                }
+            }
         };
         let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
         for b in &built {
@@ -114,11 +119,11 @@ impl Analysis for IdentifyEntry {
         };
         Ok(IdentifyOutcome {
             head: engine.head(&built),
-            data: DataOfFit {
+            data: self.data.as_ref().map(|_| DataOfFit {
                 points: points.measured.rows.len(),
                 notes: points.measured.notes,
                 file: points.file,
-            },
+            }),
             identifications,
             comparison_of_sets,
             not_compared,
@@ -144,6 +149,29 @@ impl Analysis for IdentifyEntry {
 /// Rejects contradictory keys.
 fn refuse(cx: &Planner<'_>, entry: &IdentifyEntry) -> Result<(), Stopped> {
     let path = cx.path();
+    if entry.data.is_none() {
+        if entry.means.is_empty() {
+            let help = "add `data` with measured points, `means` over cycles, or both";
+            return Err(cx.wrong_as(codes::IDENTIFICATION, &path, "nothing is measured", help));
+        }
+        let of_points = [
+            ("bind", !entry.bind.is_empty()),
+            ("hold_out", entry.hold_out.is_some()),
+            ("correction", entry.correction.is_some()),
+            ("next", entry.next.is_some()),
+            ("stack_at", entry.stack_at.is_some()),
+            ("accuracy_factors", entry.accuracy_factors),
+        ];
+        if let Some((key, _)) = of_points.iter().find(|(_, stated)| *stated) {
+            let message = format!("`{key}` needs measured points");
+            return Err(cx.wrong_as(
+                codes::IDENTIFICATION,
+                &format!("{path}.{key}"),
+                message,
+                "add `data`, or delete it",
+            ));
+        }
+    }
     if entry.folds == FoldsEntry::Torques(1) {
         let message = "cross-validation needs at least two groups";
         return Err(cx.wrong(&format!("{path}.folds"), message, "write at least 2, or 0 for none"));
@@ -161,6 +189,7 @@ fn refuse(cx: &Planner<'_>, entry: &IdentifyEntry) -> Result<(), Stopped> {
 }
 
 /// The measured rows.
+#[derive(Default)]
 struct Points {
     measured: Measured,
     held_out: Option<HoldOut>,
@@ -239,15 +268,16 @@ fn stated<'s>(
     let gearbox: &'s Gearbox = b.gearbox;
     let variants = Variants::new(cx.language, gearbox, choice.clone());
     cx.rows_fit(&rows(&points.measured), gearbox, &variants)?;
-    let made = Identification::new(
+    let made = Identification::with_means(
         cx.language,
         gearbox,
         choice,
         rows(points.to_fit()),
         entry.parameters.iter(),
         &entry.residuals,
+        means::means(cx, entry, b)?,
     );
-    made.map_err(|faults| match faults {
+    let made = made.map_err(|faults| match faults {
         Faults::Gearbox(findings) => Stopped::from(findings),
         Faults::Study(list) => {
             let path = cx.path();
@@ -260,7 +290,9 @@ fn stated<'s>(
             });
             cx.found(below.collect())
         }
-    })
+    })?;
+    means::refuse_changed(cx, entry, b, made.parameters())?;
+    Ok(made)
 }
 
 /// A finding of the study below the analysis.
@@ -293,6 +325,7 @@ fn groups(
 ) -> Result<Option<Result<Vec<Fold>, String>>, Stopped> {
     match (&entry.folds, identification.groups(&entry.folds)) {
         (FoldsEntry::Torques(0), _) => Ok(None),
+        (FoldsEntry::Torques(_), _) if entry.data.is_none() => Ok(None),
         // Files with one torque are also fitted.
         (FoldsEntry::Torques(_), found) => Ok(Some(found.map_err(|found| found.message))),
         (FoldsEntry::By(_), found) => found.map(|folds| Some(Ok(folds))).map_err(|found| below(cx, found)),

@@ -391,7 +391,9 @@ impl Identification<'_> {
     pub fn validate(&self, fitted: &Fitted, folds: &[Fold], settings: &Settings<'_>) -> Result<Validation, String> {
         let count = self.observations.len();
         let leave_out = |fold: &Fold| -> Result<Vec<(usize, f64)>, String> {
-            let others: Vec<usize> = (0..count).filter(|i| !fold.points.contains(i)).collect();
+            // Means belong to no fold.
+            let all = count + self.means.list.len();
+            let others: Vec<usize> = (0..all).filter(|i| !fold.points.contains(i)).collect();
             let problem = self.problem_from(fitted.theta(), None);
             let partial = |theta: &[f64]| {
                 let all = problem.residual(theta)?;

@@ -151,8 +151,7 @@ impl Identification<'_> {
                 ..Row::default()
             });
         }
-        let there = self.with_rows(&measured, Vec::new())?;
-        let calculated = there.calculate(fitted.theta())?;
+        let calculated = self.with_rows(&measured, Vec::new())?.calculate(fitted.theta())?;
         let (mut losses, mut oils, mut deviations) = (Vec::new(), Vec::new(), Vec::new());
         let scatter = fitted.inference.scatter();
         let factor = fitted

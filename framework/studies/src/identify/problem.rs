@@ -1,4 +1,4 @@
-//! The least-squares problem of an identification: measured points, and the gearbox with given parameters.
+//! The least-squares problem of an identification: measured points and means over cycles, and the gearbox with given parameters.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use gearloss_framework::variants::Variants;
 use gearloss_numerics::inference::Accuracy;
 use gearloss_numerics::least_squares::Problem;
 
-use super::{Identified, RigQuantity, Target};
+use super::{CalculatedMeans, Identified, Means, RigQuantity, Target};
 
 /// One fitted measured value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,13 +60,14 @@ impl Calculated {
     }
 }
 
-/// Measured points, a gearbox with one choice of models, and parameters.
+/// Measured points, means over cycles, a gearbox with one choice of models, and parameters.
 pub struct Identification<'a> {
     pub(super) variants: Arc<Variants<'a>>,
     pub(super) rows: Rows<'a>,
     pub(super) parameters: Vec<Identified>,
     pub(super) speeds: Vec<PortSpeeds>,
     pub(super) observations: Vec<Observation>,
+    pub(super) means: Means<'a>,
     pub(super) accuracy: Accuracy,
     pub(super) notes: Vec<String>,
 }
@@ -84,6 +85,22 @@ impl<'a> Identification<'a> {
         rows: Rows<'a>,
         entries: impl IntoIterator<Item = (&'e str, &'e IdentifiedEntry)>,
         residuals: &[Quantity],
+    ) -> Result<Self, Faults> {
+        Self::with_means(language, gearbox, choice, rows, entries, residuals, Means::default())
+    }
+
+    /// The same with means over cycles, beside rows or without any.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with_means<'e>(
+        language: &'a Language,
+        gearbox: &'a Gearbox,
+        choice: Choice,
+        rows: Rows<'a>,
+        entries: impl IntoIterator<Item = (&'e str, &'e IdentifiedEntry)>,
+        residuals: &[Quantity],
+        means: Means<'a>,
     ) -> Result<Self, Faults> {
         let variants = Arc::new(Variants::new(language, gearbox, choice));
         let built = rows.build(&variants, &[])?;
@@ -120,6 +137,7 @@ impl<'a> Identification<'a> {
             parameters,
             speeds: Vec::new(),
             observations: Vec::new(),
+            means,
             accuracy: Accuracy::Given,
             notes: Vec::new(),
         };
@@ -162,6 +180,7 @@ impl<'a> Identification<'a> {
             parameters: self.parameters.clone(),
             speeds: speeds.map_err(|d| d.message)?,
             observations,
+            means: Means::default(),
             accuracy: self.accuracy,
             notes: Vec::new(),
             rows,
@@ -173,9 +192,14 @@ impl<'a> Identification<'a> {
         &self.parameters
     }
 
-    /// What is fitted, in the order of the residuals.
+    /// The fitted measured values, in the order of the residuals.
     pub fn observations(&self) -> &[Observation] {
         &self.observations
+    }
+
+    /// The fitted means, whose residuals follow those of the observations.
+    pub fn means(&self) -> &Means<'a> {
+        &self.means
     }
 
     /// The measured rows.
@@ -254,17 +278,36 @@ impl<'a> Identification<'a> {
         self.observations.iter().map(|o| self.pair(o, calculated)).collect()
     }
 
-    /// Residuals: calculated minus measured over the standard deviation.
+    /// The means with given parameters, each in the unit of its path.
     ///
     /// # Errors
-    /// If the gearbox cannot be built, or a row has no value.
+    /// If the gearbox cannot be built with them, or a cycle cannot be driven.
+    pub fn calculate_means(&self, theta: &[f64]) -> Result<CalculatedMeans, String> {
+        self.means.calculate(&Identified::overrides(&self.parameters, theta))
+    }
+
+    /// Residuals: calculated minus measured over the standard deviation, of all observations and then of all means.
+    ///
+    /// # Errors
+    /// If the gearbox cannot be built, a row has no value, or a cycle cannot be driven.
     pub fn residuals(&self, theta: &[f64]) -> Result<Vec<f64>, String> {
-        let calculated = self.calculate(theta)?;
-        let residual = |o: &Observation| {
-            let pair = self.pair(o, &calculated)?;
-            Ok((pair.model - pair.measured) / o.deviation)
-        };
-        self.observations.iter().map(residual).collect()
+        let mut residuals = Vec::new();
+        if !self.observations.is_empty() {
+            let calculated = self.calculate(theta)?;
+            for o in &self.observations {
+                let pair = self.pair(o, &calculated)?;
+                residuals.push((pair.model - pair.measured) / o.deviation);
+            }
+        }
+        let values = self.calculate_means(theta)?.values;
+        residuals.extend(
+            self.means
+                .list
+                .iter()
+                .zip(values)
+                .map(|(mean, value)| mean.residual(value)),
+        );
+        Ok(residuals)
     }
 
     /// As a problem for [`gearloss_numerics::least_squares`].
@@ -365,6 +408,9 @@ impl<'a> Identification<'a> {
 
     /// Selects the observations with their standard deviations at the start.
     fn observe(&mut self, residuals: &[Quantity]) -> Result<(), Vec<Diagnostic>> {
+        if self.rows.measured.rows.is_empty() {
+            return self.are_enough();
+        }
         self.counted_once(residuals)?;
         let start = self.calculate(&self.start());
         let start = start.map_err(|reason| data_error(reason, "use other start values"))?;
@@ -460,6 +506,11 @@ impl<'a> Identification<'a> {
             );
             return Err(data_error(message, "state the accuracies of all, or of none"));
         }
+        if with == 0 && !self.means.list.is_empty() {
+            let message = "a fit of points beside means needs the accuracies of the points, and none is stated";
+            let help = "state the instruments under `rig`, or columns such as `loss_accuracy`";
+            return Err(data_error(message, help));
+        }
         if with == 0 && residuals.len() > 1 {
             let message = "a fit of several quantities needs their accuracies, and none is stated";
             let help = "state the instruments under `rig`, or columns such as `loss_accuracy`";
@@ -470,7 +521,8 @@ impl<'a> Identification<'a> {
 
     /// Checks that observations and priors determine the free parameters.
     fn are_enough(&self) -> Result<(), Vec<Diagnostic>> {
-        let (count, estimated) = (self.observations.len(), self.accuracy == Accuracy::Estimated);
+        let means = self.means.list.len();
+        let (count, estimated) = (self.observations.len() + means, self.accuracy == Accuracy::Estimated);
         let free: Vec<&Identified> = (self.parameters.iter()).filter(|p| p.bounds[0] < p.bounds[1]).collect();
         let with_prior: Vec<&&Identified> = free.iter().filter(|p| p.prior.is_some()).collect();
         let (free, priors) = (free.len(), with_prior.len());
@@ -487,10 +539,14 @@ impl<'a> Identification<'a> {
             ));
         }
         if count + priors < free {
-            return Err(data_error(
-                format!("{count} measured values and {priors} priors for {free} parameters"),
-                "identify fewer parameters, or give some of them a `prior`",
-            ));
+            let place = if self.observations.is_empty() { "means" } else { "data" };
+            return Err(vec![
+                identification_error(
+                    place,
+                    format!("{count} measured values and {priors} priors for {free} parameters"),
+                )
+                .help("identify fewer parameters, or give some of them a `prior`"),
+            ]);
         }
         Ok(())
     }

@@ -11,7 +11,7 @@ use gearloss_numerics::sensitivity::gradients;
 const DEVIATIONS: f64 = 1.959_963_985;
 
 /// Losses by mechanism at some rows.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct ShareBands {
     /// The mechanisms.
     pub mechanisms: Vec<&'static str>,
@@ -38,6 +38,9 @@ impl Identification<'_> {
         rows: &[usize],
         profiles: &[Option<Result<ProfileInterval, String>>],
     ) -> Result<ShareBands, String> {
+        if rows.is_empty() {
+            return Ok(ShareBands::default());
+        }
         let at_optimum = self.calculate(fitted.theta())?;
         let with_loss = at_optimum.solved.transmissions.iter().flat_map(|t| {
             let has_loss = |part: &&PartInfo| t.instances()[part.notes.instance()].entry.name != "none";

@@ -87,8 +87,13 @@ impl Rows<'_> {
         overrides.iter().cloned().chain(values).collect()
     }
 
+    /// All combinations of bound values. Without rows nothing is bound.
     fn combinations(&self) -> Vec<&Vec<String>> {
-        distinct(self.measured.rows.iter().map(|row| &row.bound))
+        static UNBOUND: Vec<String> = Vec::new();
+        match &self.measured.rows[..] {
+            [] => vec![&UNBOUND],
+            rows => distinct(rows.iter().map(|row| &row.bound)),
+        }
     }
 
     /// The points of each gear of each transmission, with the index of the latter; without torques and speeds.

@@ -25,7 +25,7 @@ pub struct DriveEntry {
 }
 
 /// Cycles and settings of the simulation.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 pub struct RideEntry {
     /// Names under `cycles` of the study.
     #[serde(default)]

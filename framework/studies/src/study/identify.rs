@@ -1,6 +1,7 @@
-//! Input of an identification: parameters, held-out rows, groups of rows.
+//! Input of an identification: parameters, means over cycles, held-out rows, groups of rows.
 
 mod hold_out;
+mod means;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,6 +10,7 @@ use serde_json::Value;
 use crate::varied::Tie;
 
 pub use hold_out::{FoldsBy, FoldsEntry, HoldOutEntry, HoldOutRows};
+pub use means::{MeanEntry, RelativeTo};
 
 /// One parameter.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

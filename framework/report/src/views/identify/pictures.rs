@@ -1,4 +1,4 @@
-//! Figures of identifications: parameters between their bounds, deviations before and after, losses and measured total, residuals,
+//! Figures of identifications: parameters between their bounds, deviations before and after, losses and measured total, means, residuals,
 //! correlations, proposed measurements.
 
 use gearloss_numerics::inference::{Accuracy, BandMean, Parameter};
@@ -8,7 +8,7 @@ use gearloss_studies::analyses::numbers::{RPM, tidy};
 use gearloss_studies::identify::{Identified, Observation};
 use gearloss_studies::study::Quantity;
 
-use super::{hold_out, slug, stacks, words};
+use super::{hold_out, means, slug, stacks, words};
 use crate::deviations::{self, Deviation, histograms};
 use crate::page::Page;
 use crate::plot::{Interval, Line, Stroke};
@@ -39,8 +39,13 @@ pub(super) fn draw(outcome: &IdentifyOutcome, o: &IdentificationOfSet, page: &mu
     for (what, figure) in stacks::pictures(name, outcome.requested.stack_at, o) {
         put(&what, figure);
     }
-    for (what, figure) in residuals(name, o) {
-        put(what, figure);
+    if !o.means.is_empty() {
+        put("means", means::picture(name, o));
+    }
+    if !o.points.is_empty() {
+        for (what, figure) in residuals(name, o) {
+            put(what, figure);
+        }
     }
     put("correlations", correlations(name, o));
     for (what, figure) in joint(name, o) {

@@ -4,7 +4,7 @@ use gearloss_framework::resolve::OWN_MODELS;
 use gearloss_studies::analyses::identify::{IdentificationOfSet, IdentifyOutcome};
 use gearloss_studies::study::Quantity;
 
-use super::words;
+use super::{means, measured, words};
 use crate::names::listed;
 use crate::page::Page;
 use crate::text::{again, short, words_of_set};
@@ -71,6 +71,17 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
             format!("rms; {before} before the fit"),
         );
     }
+    if let Some(words) = means::summary(o) {
+        sentence.push_str(if o.points.is_empty() { ": " } else { ", " });
+        sentence.push_str(&words);
+        let [agree, count] = means::agreeing(o);
+        page.key_figure(
+            &format!("means that agree, {}", words_of_set(set)),
+            agree.to_string(),
+            "",
+            format!("of {count}, within twice their accuracy"),
+        );
+    }
     if let Some(prediction) = held_out(o, page) {
         sentence.push_str(&format!(", {prediction}"));
     }
@@ -91,7 +102,8 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
     }
     if o.resolved_combinations < free {
         page.careful.push(format!(
-            "{set}: the points identify {} of {free} combinations of the parameters",
+            "{set}: the {} identify {} of {free} combinations of the parameters",
+            measured(o),
             o.resolved_combinations
         ));
     }

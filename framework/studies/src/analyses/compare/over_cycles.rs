@@ -117,7 +117,9 @@ pub(super) fn compare(
     let driven = plan.drive(engine)?;
     plan.refuse_broken(engine, &driven)?;
     let losses = |_: usize, _: &Trial<'_>, t: &Transmission| {
-        let driven = duties.drive_all(engine, t).map_err(Unfinished::text)?;
+        let driven = duties
+            .drive_all(t, &|| engine.should_continue())
+            .map_err(Unfinished::text)?;
         // A cycle without time has no energy.
         let mean =
             |driven: &Driven| driven.total.parts.iter().sum::<f64>() / driven.total.duration.max(f64::MIN_POSITIVE);

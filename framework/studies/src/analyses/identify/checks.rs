@@ -44,7 +44,10 @@ impl Checks {
         let inference = &fitted.inference;
         let measured = identification.measured();
         let observations = identification.observations();
-        let standardised = inference.standardised();
+        let all = inference.standardised();
+        // Those of the means follow.
+        let standardised = all[..observations.len()].to_vec();
+        let of_points = |list: Vec<usize>| list.into_iter().filter(|i| *i < observations.len()).collect();
         let over = |quantity: &str, factor: f64| -> Vec<BandMean> {
             let value = |o: &Observation| factor * measured.value(&measured.rows[o.row], quantity).unwrap_or(0.0);
             let at: Vec<f64> = observations.iter().map(value).collect();
@@ -54,12 +57,12 @@ impl Checks {
             // Factors of the accuracies are chosen to match the sum.
             lack: inference.lack_of_fit().filter(|_| fitted.factors.is_empty()),
             pure: pure_error(inference, &repeated(identification)).filter(|_| !inference.is_robust()),
-            normality: anderson_darling(&standardised),
+            normality: anderson_darling(&all),
             succession: succession(&standardised, &of_residuals(identification, sheets)),
             over_torque: over("torque", 1.0),
             over_speed: over("speed", RPM),
-            outliers: inference.outliers(),
-            weighty: inference.weighty(),
+            outliers: of_points(inference.outliers()),
+            weighty: of_points(inference.weighty()),
             standardised,
         }
     }

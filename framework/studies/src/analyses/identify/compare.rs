@@ -83,9 +83,12 @@ fn model(o: &IdentificationOfSet, common: &[f64]) -> Option<FittedModel> {
     let inference = &o.found.fitted.inference;
     let in_common = |list: &[f64]| -> Vec<f64> {
         let deviations = o.found.observations.iter().zip(common);
-        let pairs = list.iter().zip(deviations);
-        pairs
-            .map(|(residual, (observation, common))| residual * observation.deviation / common)
+        let factors = deviations.map(|(observation, common)| observation.deviation / common);
+        // The accuracies of means are the same with all sets.
+        let factors = factors.chain(std::iter::repeat(1.0));
+        list.iter()
+            .zip(factors)
+            .map(|(residual, factor)| residual * factor)
             .collect()
     };
     let residuals = in_common(inference.residuals());

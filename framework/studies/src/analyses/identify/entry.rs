@@ -5,9 +5,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::correction::CorrectionEntry;
-use crate::study::{Data, FoldsEntry, HoldOutEntry, IdentifiedEntry, NamesOrParameters, Quantity, Write};
+use crate::study::{Data, FoldsEntry, HoldOutEntry, IdentifiedEntry, MeanEntry, NamesOrParameters, Quantity, Write};
 
-/// Identification of uncertain parameters from measured points.
+/// Identification of uncertain parameters from measured points and means over cycles.
 ///
 /// Parameters of gearbox and rig by bounded least squares, with intervals and verdicts.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -19,17 +19,20 @@ pub struct IdentifyEntry {
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "model_sets"))]
     pub model_sets: Vec<String>,
-    /// Measured points.
+    /// Measured points; without them only `means` are fitted.
     #[schemars(extend("x-refers-to" = "measurements"))]
-    pub data: Data,
+    pub data: Option<Data>,
+    /// Means over cycles by name, such as published losses of a drive unit: each is fitted as one measured value.
+    #[serde(default)]
+    pub means: Ordered<MeanEntry>,
     /// Columns of the data that change a value of the gearbox: column to resolved path.
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "path"))]
     pub bind: Ordered<String>,
-    /// Gear of rows without a column `gear`; default: the first.
+    /// Gear of rows without a column `gear` and of cycles without a gear; default: the first.
     #[schemars(extend("x-refers-to" = "gear_states"))]
     pub gear: Option<String>,
-    /// Fitted quantities; several are fitted simultaneously.
+    /// Fitted quantities of the points; several are fitted simultaneously.
     #[serde(default = "residuals")]
     #[schemars(length(min = 1))]
     pub residuals: Vec<Quantity>,

@@ -14,7 +14,7 @@ use crate::codes;
 use crate::correction::Correction;
 use crate::distinct::distinct;
 use crate::identify::{
-    Calculated, Fitted, HoldOut, Identification, Identified, Observation, Pair, Profiled, Settings, ShareBands,
+    Calculated, Fitted, HoldOut, Identification, Identified, Mean, Observation, Pair, Profiled, Settings, ShareBands,
 };
 use crate::measured::{Measured, Seen};
 use crate::points::{Note, merge, notes};
@@ -37,6 +37,10 @@ pub struct Found {
     pub pairs: [Vec<Pair>; 2],
     /// State of the gearbox at the rows, at the start and at the end.
     pub rows: [Vec<RowOfSet>; 2],
+    /// The fitted means, in the order of the residuals after those of the observations.
+    pub means: Vec<Mean>,
+    /// Their calculated values at the start and at the end. \[W or -\]
+    pub calculated_means: [Vec<f64>; 2],
     /// Profile intervals.
     pub profiles: Vec<Option<Profiled>>,
     /// Errors of predictions.
@@ -114,6 +118,10 @@ impl Found {
         };
         let (before, pairs_before) = at(&identification.start()).map_err(failed)?;
         let (after, pairs_after) = at(fitted.theta()).map_err(failed)?;
+        let means_before = identification
+            .calculate_means(&identification.start())
+            .map_err(failed)?;
+        let means_after = identification.calculate_means(fitted.theta()).map_err(failed)?;
         let sheets = sheets(identification.measured(), gear);
         let profiles = if entry.profiles {
             identification.profiles(&fitted, settings.interrupt)
@@ -151,6 +159,7 @@ impl Found {
         })?;
         let transmission = &after.solved.transmissions[0];
         let mut seen = after.solved.seen.clone();
+        merge(&mut seen, &means_after.seen);
         let held_out = held_out.map(|(held_out, there)| {
             merge(&mut seen, &there);
             held_out
@@ -163,13 +172,20 @@ impl Found {
             correction,
             posterior,
             held_out,
-            outside: notes(transmission, &seen),
+            // Nothing is observed if all cycles are with other values of the gearbox.
+            outside: if seen.is_empty() {
+                Vec::new()
+            } else {
+                notes(transmission, &seen)
+            },
         };
         let mechanisms = shares.as_ref().map_or(&[][..], |shares| &shares.mechanisms);
         let found = Self {
             checks,
             rows: [&before, &after].map(|there| rows(there, identification.measured(), mechanisms)),
             pairs: [pairs_before, pairs_after],
+            means: identification.means().list.clone(),
+            calculated_means: [means_before.values, means_after.values],
             parameters: identification.parameters().to_vec(),
             measured: identification.measured().clone(),
             observations: identification.observations().to_vec(),

@@ -8,6 +8,7 @@ use super::compare::ComparisonOfSets;
 use super::folds::FoldsOfSet;
 use super::found::Found;
 use super::hold_out::HoldOutOfSet;
+use super::means::MeanOfFit;
 use super::next::NextOfSet;
 use super::parameter::ParameterOfSet;
 use super::posterior::PosteriorOfSet;
@@ -16,14 +17,14 @@ use crate::analyses::Head;
 use crate::correction::Correction;
 use crate::points::Note;
 
-/// Identification of uncertain parameters from measured points with each model set.
+/// Identification of uncertain parameters from measured points and means over cycles, with each model set.
 #[derive(Debug, Clone, Serialize, JsonSchema)]
 pub struct IdentifyOutcome {
     /// Provenance.
     #[serde(flatten)]
     pub head: Head,
-    /// The measured points.
-    pub data: DataOfFit,
+    /// The measured points; absent if only means are fitted.
+    pub data: Option<DataOfFit>,
     /// One for each model set.
     pub identifications: Vec<IdentificationOfSet>,
     /// Comparison of the sets; absent for one set, or if a comparison is invalid.
@@ -122,6 +123,9 @@ pub struct IdentificationOfSet {
     pub correction: Vec<Correction>,
     /// The fitted values.
     pub points: Vec<PointOfFit>,
+    /// The fitted means over cycles; absent if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub means: Vec<MeanOfFit>,
     /// Proposed measurements; absent if not requested or not possible.
     pub next: Option<NextOfSet>,
     /// Notes of models at the end of the search.

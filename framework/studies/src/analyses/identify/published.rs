@@ -16,11 +16,14 @@ impl Outcome for IdentifyOutcome {
 
     fn tables(&self) -> Vec<Table> {
         let (name, all) = (self.head.analysis.as_str(), &self.identifications[..]);
-        let mut list = vec![
-            tables::points(name, all),
-            tables::shares(name, all),
-            tables::parameters(name, all),
-        ];
+        let mut list = Vec::new();
+        if self.data.is_some() {
+            list.extend([tables::points(name, all), tables::shares(name, all)]);
+        }
+        if all.iter().any(|o| !o.means.is_empty()) {
+            list.push(tables::means::table(name, all));
+        }
+        list.push(tables::parameters(name, all));
         list.extend(self.requested.posterior.then(|| tables::posterior::table(name, all)));
         list.extend(self.held_out.as_ref().map(|_| tables::hold_out::table(name, all)));
         list.extend(self.requested.next.then(|| tables::next::table(name, all)));

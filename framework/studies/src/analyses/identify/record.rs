@@ -5,6 +5,7 @@ use gearloss_numerics::inference::{Accuracy, BandMean};
 use super::entry::IdentifyEntry;
 use super::folds::FoldsOfSet;
 use super::found::{Beside, Found};
+use super::means::MeanOfFit;
 use super::outcome::{
     AccuracyOfPoints, BandOfResiduals, ChecksOfSet, IdentificationOfSet, LossOfPoint, MisfitOfQuantity, MisfitOfSet,
     NormalityOfResiduals, PointOfFit, RepeatedPoints, SuccessionOfResiduals, SumOfSquares,
@@ -51,6 +52,7 @@ impl IdentificationOfSet {
             hold_out: beside.held_out,
             correction: beside.correction,
             points: points(&found),
+            means: MeanOfFit::all(&found),
             next: next.map(|next| next.record(&found)),
             outside: beside.outside,
             no_posterior,

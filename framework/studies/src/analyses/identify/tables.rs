@@ -2,6 +2,7 @@
 
 pub(super) mod compare;
 pub(super) mod hold_out;
+pub(super) mod means;
 pub(super) mod next;
 pub(super) mod posterior;
 

@@ -71,7 +71,10 @@ impl Drives<'_> {
     /// Why the gearbox cannot be built or driven.
     pub fn drive(&self, overrides: Vec<(String, Value)>) -> Result<Drive, String> {
         let (t, ratings) = built(&self.trial, self.limits, overrides)?;
-        let driven = self.duties.drive_all(self.engine, &t).map_err(Unfinished::text)?;
+        let driven = self
+            .duties
+            .drive_all(&t, &|| self.engine.should_continue())
+            .map_err(Unfinished::text)?;
         Ok(Drive {
             losses: driven
                 .iter()
