@@ -37,7 +37,7 @@ const OPEN: [&str; 7] = [
 ];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 35] = [
+const OPTIONAL: [&str; 36] = [
     "planets",
     "elastic_modulus_gpa",
     "reduced_modulus_gpa",
@@ -47,6 +47,7 @@ const OPTIONAL: [&str; 35] = [
     "of",
     "unit",
     "machines",
+    "dc_power_w",
     "unit_loss_w",
     "system_efficiency",
     "gears_used",
