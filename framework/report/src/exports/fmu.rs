@@ -55,6 +55,10 @@ impl ExportFormat for Fmu2 {
         Ok(())
     }
 
+    fn joins_temperatures(&self) -> bool {
+        true
+    }
+
     fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
         of_set(map)
     }
@@ -83,6 +87,10 @@ impl ExportFormat for Fmu3 {
 
     fn takes(&self, _of: MapOf) -> Result<(), Refusal> {
         Ok(())
+    }
+
+    fn joins_temperatures(&self) -> bool {
+        true
     }
 
     fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {

@@ -29,6 +29,10 @@ impl ExportFormat for Matlab {
         GridTable::fit(axes)
     }
 
+    fn joins_temperatures(&self) -> bool {
+        true
+    }
+
     fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
         map.siblings.clone()
     }

@@ -31,6 +31,10 @@ impl ExportFormat for Modelica {
         GridTable::fit(axes)
     }
 
+    fn joins_temperatures(&self) -> bool {
+        true
+    }
+
     fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
         map.siblings.clone()
     }
