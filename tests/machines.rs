@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::common::study::{Ran, number, run_texts};
+use crate::common::study::{Ran, check_texts, number, run_texts};
 use crate::drive_unit::{STAGE, per_distance};
 
 const CYCLE: &str = "time [s],vehicle_speed [m/s]\n0,0\n10,10\n20,10\n30,0\n";
@@ -243,7 +243,9 @@ analyses:
   machine: { type: map, grid: g, of: machine, write: [json, csv] }
   points: { type: operating_points, points: [{ torque: 50 Nm, speed: 3000 rpm }], by: unit, write: [json, csv] }
   bars: { type: breakdown, torque: 50 Nm, speed: 3000 rpm, by: unit, write: [json] }
-  path: { type: sweep, torque: 50 Nm, speed: 3000 rpm, path: meshes.stage.loss_factor, values: [0.9, 1], write: [json, csv] }
+  path: { type: sweep, torque: 50 Nm, speed: 3000 rpm, path: meshes.stage.loss_factor, values: [0.9, 1], write: [json, csv, svg] }
+  names: { type: sweep, torque: 50 Nm, speed: 3000 rpm, path: bearings.B2.designation, values: ['6204', NU204EC], write: [svg] }
+  parts: { type: breakdown, torque: 50 Nm, speed: 3000 rpm, write: [json, csv] }
   other: { type: compare, grid: g, base: own, variants: { worse: { meshes.stage.loss_factor: 2 } }, quantity: system_efficiency, write: [json] }
   bands: { type: uncertainty, grid: g, inputs: [{ path: meshes.stage.loss_factor, from: 0.8, to: 1.2 }], samples: 8, write: [json, csv] }
   effects: { type: sensitivity, grid: g, parameters: [{ path: meshes.stage.loss_factor, from: 0.8, to: 1.2 }], write: [json] }
@@ -303,6 +305,25 @@ analyses:
             .iter()
             .sum::<f64>();
     close(&of_unit("idle")["points"][0]["losses_w"][1], at_rest);
+    // Power and efficiency of the unit stand beside the bars, whatever divides them.
+    for analysis in ["bars", "warm", "parts"] {
+        let points = of_unit(analysis)["points"].as_array().unwrap().clone();
+        assert_eq!(points[points.len() - 1]["unit"], point["unit"], "{analysis}");
+        let header = ran.csv(analysis).lines().next().unwrap().to_owned();
+        assert!(
+            header.contains("dc_power_w") && header.contains("system_efficiency"),
+            "{header}"
+        );
+    }
+    let band = &ran.json("bands")["bands"][0]["points"];
+    let band = band.as_array().unwrap().iter();
+    let band = band
+        .clone()
+        .find(|p| number(&p["torque_nm"]) == 50.0 && number(&p["speed_rpm"]) == 3000.0);
+    close(&band.unwrap()["dc_power_w"]["nominal"], power + machine + inverter);
+    for picture in ["path-unit-loss", "path-system-efficiency", "names-unit"] {
+        assert!(ran.draws(picture), "{picture}");
+    }
     for words in ["DC power W", "unit loss W", "system efficiency in %"] {
         assert!(ran.text.contains(words), "{words}: {}", ran.text);
     }
@@ -500,8 +521,8 @@ fn paths_move_together_along_rows_in_bands_and_fits() {
     }
 }
 
-/// Three intervals of the stage with a thermal network, whose coolant the inverter may heat.
-fn in_a_network(inverter: &str) -> Value {
+/// Study and gearbox of three intervals of the stage with a thermal network, whose coolant the inverter may heat.
+fn network(inverter: &str, more: &str) -> [String; 2] {
     let study = format!(
         "gearloss: study/1
 gearboxes: {{ box: box.yaml }}
@@ -514,7 +535,7 @@ vehicles:
     rotating_mass_factor: 1.05
 {REGENERATION}
     battery: {{ energy: 60 kWh, efficiency: 0.96, auxiliaries: 300 W }}
-analyses: {{ c: {{ type: cycle, cycles: [three], start: 20 degC, step: 2 s, write: [json] }} }}
+analyses: {{ c: {{ type: cycle, cycles: [three], start: 20 degC, step: 2 s, write: [json]{more} }} }}
 "
     );
     let gearbox = format!(
@@ -538,9 +559,29 @@ thermal:
       plate: {{ between: [coolant, ambient], conductance: 40 W/K }}
 "
     );
+    [study, gearbox]
+}
+
+fn in_a_network(inverter: &str) -> Value {
+    let [study, gearbox] = network(inverter, "");
     let ran = run_texts(&study, &[("box.yaml", &gearbox), ("three.csv", CYCLE)]);
     assert!(ran.succeeded, "{}", ran.text);
     ran.json("c")["cycles"][0].clone()
+}
+
+/// An FMU of the network has no heat of an inverter: `check` says so before anything runs.
+#[test]
+fn a_network_with_the_heat_of_an_inverter_is_not_exported() {
+    for (inverter, is_refused) in [(", node: coolant", true), ("", false)] {
+        let [study, gearbox] = network(inverter, ", export: [fmu3]");
+        let found = check_texts(&study, &[("box.yaml", &gearbox), ("three.csv", CYCLE)]);
+        let says = [
+            "analyses.c.export",
+            "`machines.motor` heats a node",
+            "delete `inverter.node`",
+        ];
+        assert!(says.iter().all(|words| found.contains(words) == is_refused), "{found}");
+    }
 }
 
 /// The heat of an inverter enters its node once: the balance closes with it, and what the battery supplies does not change.
@@ -585,6 +626,76 @@ fn the_node_of_an_inverter_must_exist() {
     );
 }
 
+/// `check` compares what points ask of a machine with its map and its envelope: at the port of the torque, through the gears without their
+/// losses, and in the gear that is chosen.
+#[test]
+fn points_beyond_a_map_or_an_envelope_are_found_before_anything_is_solved() {
+    let found = |conditions: &str, grid: &str, machine: &str, analysis: &str| {
+        let study = format!(
+            "gearloss: study/1
+gearboxes: {{ box: box.yaml }}
+conditions: {{ oil_temperature: 60 degC{conditions} }}
+grids: {{ g: {{ {grid} }} }}
+analyses: {{ m: {{ {analysis}, grid: g }} }}
+"
+        );
+        let gearbox = format!("{STAGE}\nmachines: {{ motor: {{ map: map.csv, contains: [inverter]{machine} }} }}\n");
+        check_texts(&study, &[("box.yaml", &gearbox), ("map.csv", &synthetic())])
+    };
+    let map = "type: map";
+    // The map reaches 100 Nm and 5000 rpm.
+    let beyond = found(
+        "",
+        "torque: [50 Nm, 100 Nm, 130 Nm], speed: [3000 rpm, 5000 rpm, 6000 rpm]",
+        "",
+        map,
+    );
+    let says = [
+        "W0543",
+        "analyses.m",
+        "`machines.motor` is outside its map at 5 points, farthest with 130.0 Nm at 6000 rpm, 30.0 Nm above its largest torque there, 1000 rpm above its largest speed",
+    ];
+    assert!(says.iter().all(|words| beyond.contains(words)), "{beyond}");
+    assert!(
+        !beyond.contains("envelope at") && !beyond.contains("without the losses"),
+        "{beyond}"
+    );
+    let inside = found("", "torque: [-100 Nm, 100 Nm], speed: [0 rpm, 5000 rpm]", "", map);
+    assert_eq!(inside, "");
+    // 10 kW at 3000 rpm are 31.83 Nm.
+    let envelope = ", envelope: { peak: { torque: 60 Nm, power: 10 kW } }";
+    let limited = found(
+        "",
+        "torque: [-40 Nm, 20 Nm, 40 Nm], speed: [1000 rpm, 3000 rpm]",
+        envelope,
+        map,
+    );
+    let says = "`machines.motor` is beyond its envelope at 2 points, farthest with -40.0 Nm at 3000 rpm, 8.2 Nm above its largest torque there";
+    assert!(
+        limited.contains(says) && !limited.contains("outside its map"),
+        "{limited}"
+    );
+    // 1080 Nm at the output are 120 Nm at the machine by the ratio of 9, whatever the teeth lose.
+    let output = ", torque_at: output, speed_at: output";
+    let through = found(output, "torque: [-1080 Nm, -450 Nm], speed: [300 rpm]", "", map);
+    let says = [
+        "`machines.motor` is outside its map at 1 point, farthest with -120.0 Nm at -2700 rpm, 20.0 Nm above",
+        "without the losses of the gearbox",
+    ];
+    assert!(says.iter().all(|words| through.contains(words)), "{through}");
+    // Any analysis of points.
+    let other = found(
+        "",
+        "torque: [130 Nm], speed: [3000 rpm]",
+        "",
+        "type: uncertainty, samples: 8, inputs: [{ path: meshes.stage.loss_factor, from: 0.8, to: 1.2 }]",
+    );
+    assert!(other.contains("is outside its map at 1 point"), "{other}");
+    // A machine that turns with its inverter off needs no map.
+    let idle = ", idle: \"off\", freewheel: [{ speed: 0 rpm, loss: 0 W }, { speed: 9000 rpm, loss: 90 W }]";
+    assert_eq!(found("", "torque: [0 Nm], speed: [6000 rpm]", idle, map), "");
+}
+
 /// Where the oil reaches a temperature the unit is known as well.
 #[test]
 fn a_thermal_limit_states_the_unit() {
@@ -592,6 +703,7 @@ fn a_thermal_limit_states_the_unit() {
 gearboxes: { box: box.yaml }
 analyses:
   limit: { type: thermal_limit, temperature: [60 degC], torque: { from: 1 Nm, to: 41 Nm, step: 10 Nm }, speed: [3000 rpm], write: [json, csv] }
+  settled: { type: balance, torque: 20 Nm, speed: 3000 rpm, write: [json, csv] }
 ";
     let gearbox = format!(
         "{STAGE}
@@ -613,4 +725,13 @@ thermal:
     close(&limit["unit"]["system_efficiency"], 0.97 * 0.92 * 0.98);
     assert!(ran.csv("limit").lines().next().unwrap().contains("system_efficiency"));
     assert!(ran.text.contains("DC power W"), "{}", ran.text);
+    let settled = ran.json("settled")["balances"][0].clone();
+    let power = 20.0 * 3000.0 * std::f64::consts::PI / 30.0;
+    close(&settled["unit"]["dc_power_w"], power / 0.92 / 0.98);
+    close(&settled["unit"]["system_efficiency"], 0.97 * 0.92 * 0.98);
+    assert!(
+        ran.csv("settled-unit")
+            .starts_with("model_set,oil_temperature_degc,dc_power_w")
+    );
+    assert!(ran.text.contains("drive unit: DC power 6968.9 W"), "{}", ran.text);
 }

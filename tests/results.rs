@@ -37,7 +37,7 @@ const OPEN: [&str; 7] = [
 ];
 
 /// Keys that some records have and others have not.
-const OPTIONAL: [&str; 37] = [
+const OPTIONAL: [&str; 38] = [
     "means",
     "source",
     "planets",
@@ -49,6 +49,7 @@ const OPTIONAL: [&str; 37] = [
     "of",
     "unit",
     "machines",
+    "dc_power_w",
     "unit_loss_w",
     "system_efficiency",
     "gears_used",

@@ -9,7 +9,7 @@ use gearloss_framework::document::archive::Archive;
 use serde_json::Value;
 
 use crate::common::RPM;
-use crate::common::study::{Ran, number, run_texts};
+use crate::common::study::{Ran, check_texts, number, run_texts};
 use crate::drive_unit::STAGE;
 
 /// A machine whose losses depend on speed and on the magnitude of the torque, also at standstill.
@@ -282,4 +282,54 @@ fn formats_of_two_shafts_say_what_to_use_instead() {
             ran.text
         );
     }
+}
+
+/// The voltage of the link is no axis of a table: `check` says so, and VECTO's files are one for each voltage.
+#[test]
+fn maps_at_several_voltages_are_tables_of_their_own() {
+    let study = |format: &str| {
+        format!(
+            "gearloss: study/1
+gearboxes: {{ box: box.yaml }}
+conditions: {{ oil_temperature: 60 degC }}
+grids:
+  g:
+    torque: [-60 Nm, 0 Nm, 60 Nm]
+    speed: [500 rpm, 2000 rpm, 3500 rpm]
+    bind: {{ machines.motor.voltage: [300 V, 400 V] }}
+analyses: {{ m: {{ type: map, grid: g, of: machine, export: [{format}] }} }}
+"
+        )
+    };
+    let mut map = "speed [rpm],torque [Nm],voltage [V],loss [W]\n".to_owned();
+    for voltage in [300, 400] {
+        for n in [0, 4000] {
+            for torque in [-100, 0, 100] {
+                map.push_str(&format!("{n},{torque},{voltage},{}\n", 40 + n / 20 + voltage / 10));
+            }
+        }
+    }
+    let gearbox = format!(
+        "{STAGE}\nmachines: {{ motor: {{ map: map.csv, voltage: 400 V, inverter: {{ efficiency: 0.97 }} }} }}\n"
+    );
+    let files = [("box.yaml", gearbox.as_str()), ("map.csv", map.as_str())];
+    for format in ["fmu3", "mat", "matlab", "modelica"] {
+        let found = check_texts(&study(format), &files);
+        let says = [
+            "analyses.m.export",
+            "differ in `machines.motor.voltage`",
+            "bind one value of it",
+        ];
+        assert!(says.iter().all(|words| found.contains(words)), "{found}");
+    }
+    let ran = run_texts(&study("vecto"), &files);
+    assert!(ran.succeeded, "{}", ran.text);
+    let of = |number: usize| rows(ran.file(&format!("m-own-only-{number}.vemo")));
+    let (low, high) = (of(1), of(2));
+    // 10 W more at 400 V, through the inverter, in kW of six digits after the point.
+    let driving = low.iter().zip(&high).find(|(low, _)| low[1] == 60.0).unwrap();
+    assert!(
+        (driving.1[2] - driving.0[2] - 0.01 / 0.97).abs() <= 1.001e-6,
+        "{driving:?}"
+    );
 }

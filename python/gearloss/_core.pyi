@@ -141,6 +141,8 @@ class Solution:
 class Column:
     """A column with its unit and meaning."""
 
+    def __new__(cls, name: str, unit: str, meaning: str, values: Any) -> Column: ...
+
     @property
     def name(self) -> str: ...
     @property
@@ -154,6 +156,8 @@ class Column:
 @final
 class Table:
     """Columns of one length."""
+
+    def __new__(cls, name: str, columns: list[Column]) -> Table: ...
 
     @property
     def name(self) -> str: ...

@@ -99,6 +99,25 @@ class Points(Table):
         return self.array("loss_torque_nm")
 
     @property
+    def dc_power(self) -> npt.NDArray[np.float64]:
+        """Power out of the DC link into the machines in W.
+
+        Raises:
+            KeyError: without machines, as `unit_loss` and `system_efficiency`.
+        """
+        return self.array("dc_power_w")
+
+    @property
+    def unit_loss(self) -> npt.NDArray[np.float64]:
+        """Losses of gearbox, machines and inverters in W."""
+        return self.array("unit_loss_w")
+
+    @property
+    def system_efficiency(self) -> npt.NDArray[np.float64]:
+        """Power at the other ports over the power of the DC link, while generating the reciprocal; NaN where no power passes."""
+        return self.array("system_efficiency")
+
+    @property
     def oil_temperature(self) -> npt.NDArray[np.float64]:
         """Oil temperature in degC."""
         return self.array("oil_temperature_degc")
@@ -139,11 +158,12 @@ class Map(Points):
             raise ValueError("contours need two torques and two speeds")
         axes = matplotlib.pyplot.subplots()[1] if ax is None else ax
         quantity = "loss_w" if quantity == "loss" else quantity
-        values = 100.0 * self.efficiency if quantity == "efficiency" else self.array(quantity)
+        is_share = quantity.endswith("efficiency")
+        values = 100.0 * self.array(quantity) if is_share else self.array(quantity)
         filled = axes.contourf(self.speed, self.torque, values, levels)
         lines = axes.contour(self.speed, self.torque, values, filled.levels, colors="black", linewidths=0.4)
         axes.clabel(lines, fontsize=8)
-        unit = "%" if quantity == "efficiency" else self._columns[quantity].unit
+        unit = "%" if is_share else self._columns[quantity].unit
         axes.figure.colorbar(filled, ax=axes, label=f"{quantity.replace('_', ' ')} in {unit}")
         axes.set(xlabel="speed in rpm", ylabel="torque in Nm")
         return axes

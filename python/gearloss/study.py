@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any, Union
 
 from . import _core
@@ -103,8 +104,11 @@ class _Bar:
 class Outcome:
     """The outcome of an analysis."""
 
-    def __init__(self, core: _core.Outcome) -> None:
+    def __init__(self, core: Union[_core.Outcome, _Kept]) -> None:
         self._core = core
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Outcome, (_Kept.of(self._core),)
 
     @property
     def name(self) -> str:
@@ -183,6 +187,46 @@ class Outcome:
         names = self.figures
         picture = self.svg(names[0]) if names else ""
         return f"<p><b>{_escaped(self.headline or self.name)}</b></p>{figures}{picture}"
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """What an outcome shows: all that another process gets of it."""
+
+    name: str
+    headline: Union[str, None]
+    key_figures: list[dict[str, str]]
+    careful: list[str]
+    failures: list[str]
+    tables: list[_core.Table]
+    pictures: dict[str, str]
+    record: dict[str, Any]
+
+    @classmethod
+    def of(cls, core: Union[_core.Outcome, _Kept]) -> _Kept:
+        if isinstance(core, _Kept):
+            return core
+        pictures = {name: core.svg(name) or "" for name in core.figures}
+        return cls(
+            core.name,
+            core.headline,
+            core.key_figures,
+            core.careful,
+            core.failures,
+            core.tables,
+            pictures,
+            core.to_dict(),
+        )
+
+    @property
+    def figures(self) -> list[str]:
+        return list(self.pictures)
+
+    def svg(self, name: str) -> Union[str, None]:
+        return self.pictures.get(name)
+
+    def to_dict(self) -> dict[str, Any]:
+        return self.record
 
 
 def _number(text: str) -> Union[float, str]:

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use gearloss::studies::table;
-use numpy::{PyArray1, PyArrayMethods};
+use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::{PyCapsule, PyList};
+use pyo3::types::{PyCapsule, PyList, PyType};
 
 use crate::arrow;
 
 /// A column with its unit and meaning.
-#[pyclass(frozen)]
+#[pyclass(frozen, module = "gearloss._core")]
 pub struct Column {
     /// Name.
     #[pyo3(get)]
@@ -30,13 +30,27 @@ enum Cells {
     Texts(Arc<table::Texts>),
 }
 
-impl Column {
-    /// A column of numbers, which become an array without a copy.
-    pub fn numbers(py: Python<'_>, name: String, unit: &str, meaning: String, values: Vec<f64>) -> PyResult<Py<Self>> {
+impl Cells {
+    fn numbers(py: Python<'_>, values: Vec<f64>) -> Self {
         let numbers = PyArray1::from_vec(py, values);
         // Views, data frames and streams share them.
         numbers.readwrite().make_nonwriteable();
-        Self::new(py, name, unit, meaning, Cells::Numbers(numbers.unbind()))
+        Self::Numbers(numbers.unbind())
+    }
+
+    fn texts<'t>(texts: impl Iterator<Item = Option<&'t str>>) -> Self {
+        let mut cells = table::Texts::default();
+        for text in texts {
+            cells.push(text.unwrap_or_default());
+        }
+        Self::Texts(Arc::new(cells))
+    }
+}
+
+impl Column {
+    /// A column of numbers, which become an array without a copy.
+    pub fn numbers(py: Python<'_>, name: String, unit: &str, meaning: String, values: Vec<f64>) -> PyResult<Py<Self>> {
+        Self::new(py, name, unit, meaning, Cells::numbers(py, values))
     }
 
     /// A column of texts.
@@ -46,12 +60,7 @@ impl Column {
         meaning: &str,
         texts: impl Iterator<Item = Option<&'t str>>,
     ) -> PyResult<Py<Self>> {
-        let mut cells = table::Texts::default();
-        for text in texts {
-            cells.push(text.unwrap_or_default());
-        }
-        let cells = Cells::Texts(Arc::new(cells));
-        Self::new(py, name.to_owned(), "", meaning.to_owned(), cells)
+        Self::new(py, name.to_owned(), "", meaning.to_owned(), Cells::texts(texts))
     }
 
     fn new(py: Python<'_>, name: String, unit: &str, meaning: String, cells: Cells) -> PyResult<Py<Self>> {
@@ -70,6 +79,32 @@ impl Column {
 
 #[pymethods]
 impl Column {
+    /// A column of an array of numbers, or of a list of texts with `None` for gaps.
+    #[new]
+    fn from_values(name: String, unit: String, meaning: String, values: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let cells = match values.extract::<PyReadonlyArray1<'_, f64>>() {
+            Ok(numbers) => Cells::numbers(values.py(), numbers.as_array().to_vec()),
+            Err(_) => {
+                let texts: Vec<Option<String>> = values.extract()?;
+                Cells::texts(texts.iter().map(Option::as_deref))
+            }
+        };
+        Ok(Self {
+            name,
+            unit,
+            meaning,
+            cells,
+        })
+    }
+
+    /// What a pickled column is made of again.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyType>, (String, String, String, Py<PyAny>))> {
+        let own = slf.get();
+        let values = own.values(slf.py())?;
+        let made_of = (own.name.clone(), own.unit.clone(), own.meaning.clone(), values);
+        Ok((slf.get_type(), made_of))
+    }
+
     /// The numbers as an array, or the texts as a list with `None` for gaps.
     #[getter]
     fn values(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
@@ -98,7 +133,7 @@ impl Column {
 }
 
 /// A table of results.
-#[pyclass(frozen)]
+#[pyclass(frozen, module = "gearloss._core")]
 pub struct Table {
     /// Name.
     #[pyo3(get)]
@@ -134,6 +169,18 @@ impl Table {
 
 #[pymethods]
 impl Table {
+    /// A table of columns of one length.
+    #[new]
+    fn from_columns(name: String, columns: Vec<Py<Column>>) -> Self {
+        Self { name, columns }
+    }
+
+    /// What a pickled table is made of again.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, (String, Vec<Py<Column>>)) {
+        let own = slf.get();
+        (slf.get_type(), (own.name.clone(), own.columns(slf.py())))
+    }
+
     /// The columns in their order.
     #[getter]
     fn columns(&self, py: Python<'_>) -> Vec<Py<Column>> {

@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 TWO_SPEED = ROOT / "examples" / "two-speed-ev" / "gearbox.yaml"
 REDUCER = ROOT / "examples" / "planetary-reducer" / "gearbox.yaml"
 UNIT = ROOT / "examples" / "electric-drive-unit" / "gearbox.yaml"
+SYSTEM = ROOT / "examples" / "drive-unit-system" / "gearbox.yaml"
 
 
 @pytest.fixture(scope="session")

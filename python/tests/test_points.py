@@ -5,7 +5,7 @@ import pytest
 
 import gearloss as gl
 
-from conftest import REDUCER, TWO_SPEED, UNIT
+from conftest import REDUCER, SYSTEM, TWO_SPEED, UNIT
 
 AT = dict(gear="first", torque=10, speed=8000)
 
@@ -215,6 +215,23 @@ def test_a_network_is_solved(solved):
     point = unit.solve(torque=60, speed=6000)
     record = solved(UNIT, "--torque", "60", "--speed", "6000")
     assert point.loss == record["loss_w"]
+
+
+def test_a_drive_unit_is_that_of_the_program(solved, transmission):
+    unit = gl.Gearbox.read(SYSTEM).transmission()
+    at = dict(gear="second", torque=10, speed=10000, oil_temperature=60)
+    point = unit.solve(**at)
+    record = solved(SYSTEM, "--gear", "second", "--torque", "10", "--speed", "10000", "--set", "thermal.mode=fixed", "--set", "thermal.oil=60 degC")
+    names = {"dc_power": "dc_power_w", "machine_loss": "machine_loss_w", "inverter_loss": "inverter_loss_w"}
+    for own, key in {**names, "unit_loss": "unit_loss_w", "system_efficiency": "system_efficiency"}.items():
+        assert getattr(point, own) == record["unit"][key], own
+    grid = unit.map(gear="second", torque=[-10, 10], speed=[5000, 10000], oil_temperature=60)
+    assert grid.dc_power[1, 1] == point.dc_power and grid.dc_power[0, 1] < 0
+    assert grid.unit_loss[1, 1] == point.unit_loss and grid.system_efficiency[1, 1] == point.system_efficiency
+    assert point.dc_power == pytest.approx(10 * 10000 * np.pi / 30 + point.machine_loss + point.inverter_loss, rel=1e-12)
+    with pytest.raises(KeyError, match="dc_power_w"):
+        transmission.points(**AT).dc_power
+    assert transmission.solve(**AT).dc_power is None
 
 
 def test_explain_is_that_of_the_program(transmission, program):

@@ -1,5 +1,6 @@
 import json
 import os
+import pickle
 import signal
 import threading
 import time
@@ -46,6 +47,19 @@ def test_an_outcome_has_its_result_in_words_and_numbers(products):
     assert any(line.startswith("outside: ") for line in gain.careful)
     assert gain.failures == []
     assert "gain" in repr(gain)
+
+
+def test_a_pickled_outcome_shows_the_same(small):
+    for name in small.analyses:
+        outcome = small.analysis(name)
+        once = pickle.loads(pickle.dumps(outcome))
+        for kept in (once, pickle.loads(pickle.dumps(once))):
+            assert repr(kept) == repr(outcome) and kept.to_dict() == outcome.to_dict()
+            assert (kept.key_figures, kept.careful, kept.failures) == (outcome.key_figures, outcome.careful, outcome.failures)
+            assert kept.figures == outcome.figures and all(kept.svg(f) == outcome.svg(f) for f in outcome.figures)
+            assert kept.to_pandas().equals(outcome.to_pandas())
+            with pytest.raises(KeyError):
+                kept.svg("nothing")
 
 
 def test_an_analysis_says_how_far_it_is(products, capsys):

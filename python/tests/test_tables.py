@@ -1,4 +1,5 @@
 import gc
+import pickle
 import sys
 
 import numpy as np
@@ -33,6 +34,17 @@ def test_texts_are_no_array(points):
 def test_a_table_is_shown_in_a_notebook(points):
     html = points._repr_html_()
     assert html.startswith("<table>") and "loss_w" in html and html.count("<tr>") == 4
+
+
+def test_a_pickled_table_has_the_same_numbers_and_texts(points, transmission):
+    grid = transmission.map(gear="first", torque=[5, 10], speed=[3000, 6000, 9000])
+    for table in (points, grid):
+        kept = pickle.loads(pickle.dumps(table))
+        assert type(kept) is type(table) and list(kept) == list(table) and repr(kept) == repr(table)
+        assert kept.loss.shape == table.loss.shape and np.array_equal(kept.loss, table.loss)
+        assert kept["status"] == table["status"] and not kept["loss_w"].flags.writeable
+        assert [(c.unit, c.meaning) for c in kept.columns] == [(c.unit, c.meaning) for c in table.columns]
+    assert np.array_equal(kept.torque, grid.torque) and np.array_equal(kept.speed, grid.speed)
 
 
 def test_pandas_reads_a_table(points):

@@ -7,10 +7,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use gearloss::api::{
-    Disk, FileSource, Findings, InMemory, Outcome, SharedSource, Stopped, Study, StudyRun, read_study,
+    Disk, FileSource, Findings, InMemory, Outcome, SharedSource, Silent, Stopped, Study, StudyRun, read_study,
 };
 use gearloss::report::csv::CsvTable;
 use gearloss::report::page::{Block, Page};
+use gearloss::studies::checked_study::CheckedStudy;
 use gearloss::studies::study::Write;
 use serde_json::Value;
 
@@ -175,6 +176,19 @@ pub fn run_files(study: &str, files: &[(&str, impl AsRef<[u8]>)]) -> Ran {
     let texts = InMemory::new(contents.chain([("study.yaml", study.as_bytes().to_vec())]));
     let source: SharedSource = Arc::new(TextsAndDisk(texts));
     run(&source, Path::new("study.yaml"))
+}
+
+/// What `check` finds in a study with files beside it: warnings and errors.
+pub fn check_texts(study: &str, files: &[(&str, &str)]) -> String {
+    let study = [("study.yaml", study)];
+    let contents = files.iter().chain(&study);
+    let texts = InMemory::new(contents.map(|(name, content)| (*name, content.as_bytes().to_vec())));
+    let source: SharedSource = Arc::new(TextsAndDisk(texts));
+    let checked = CheckedStudy::read(&language(), &source, Path::new("study.yaml"), &Silent);
+    let warnings = checked.warnings.iter().map(Findings::render);
+    warnings
+        .chain(checked.refused.iter().map(ToString::to_string))
+        .collect()
 }
 
 fn run(source: &SharedSource, study: &Path) -> Ran {

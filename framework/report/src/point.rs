@@ -34,6 +34,7 @@ pub use record::PointRecord;
 
 use crate::page::{Blocks, outside};
 use crate::text::{TextTable, figures, fixed, number, significant};
+use crate::unit;
 pub use crate::views::balance::{balance_text, over_temperature};
 
 /// Lines on what has no model, on changed coefficients, and on the lowest evidence grade.
@@ -164,7 +165,7 @@ pub fn point_blocks(transmission: &Transmission, prepared: &PreparedPoint, solve
     }
     if !solved.machines.is_empty() {
         blocks.table(machines_table(solved));
-        blocks.text(&unit_text(solved));
+        blocks.text(&unit::line(solved.unit().as_ref()));
     }
     if let Some((part, reason)) = solution.undefined() {
         blocks.text(&format!("{}: {reason}\n", part.path));
@@ -211,22 +212,6 @@ fn machines_table(solved: &SolvedPoint<'_>) -> TextTable {
         ]);
     }
     machines
-}
-
-/// The drive unit in one line.
-fn unit_text(solved: &SolvedPoint<'_>) -> String {
-    let Some(unit) = solved.unit() else {
-        return String::new();
-    };
-    let efficiency = unit.system_efficiency.map_or_else(
-        || "no power passes".to_owned(),
-        |efficiency| format!("efficiency {} %", figures(100.0 * efficiency, 4)),
-    );
-    format!(
-        "drive unit: DC power {} W, loss {} W, {efficiency}\n",
-        figures(unit.dc_power_w, 5),
-        figures(unit.unit_loss_w, 4)
-    )
 }
 
 /// Loads of the bearings of a point with a power flow.

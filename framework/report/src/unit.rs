@@ -1,8 +1,8 @@
-//! The drive unit in tables of points.
+//! The drive unit in tables of points, and in one line.
 
 use gearloss_studies::points::UnitPoint;
 
-use crate::text::number;
+use crate::text::{figures, number};
 
 /// Heads of its columns; none without machines.
 pub fn head(has_unit: bool) -> &'static [&'static str] {
@@ -21,4 +21,20 @@ pub fn cells(has_unit: bool, unit: Option<&UnitPoint>) -> Vec<String> {
         number(unit.map(|unit| unit.unit_loss_w), 2),
         number(efficiency.map(|share| 100.0 * share), 2),
     ]
+}
+
+/// It in one line; nothing without machines.
+pub fn line(unit: Option<&UnitPoint>) -> String {
+    let Some(unit) = unit else {
+        return String::new();
+    };
+    let efficiency = unit.system_efficiency.map_or_else(
+        || "no power passes".to_owned(),
+        |efficiency| format!("efficiency {} %", figures(100.0 * efficiency, 4)),
+    );
+    format!(
+        "drive unit: DC power {} W, loss {} W, {efficiency}\n",
+        figures(unit.dc_power_w, 5),
+        figures(unit.unit_loss_w, 4)
+    )
 }

@@ -21,6 +21,7 @@ pub mod head;
 pub mod identify;
 pub mod inputs;
 pub mod limits;
+mod machines_asked;
 pub mod map;
 pub mod measurable;
 pub mod model_error;

@@ -18,7 +18,7 @@ pub struct CheckedStudy {
     pub refused: Vec<Stopped>,
     /// What each analysis computes, by its name; nothing of those that are refused.
     pub plans: Vec<(String, Vec<Work>)>,
-    /// Warnings of its gearboxes.
+    /// Warnings of its gearboxes, and of its analyses about what their points ask of machines.
     pub warnings: Vec<Findings>,
     /// Components of its gearboxes without a model, and coefficients that differ from their source.
     pub notes: Vec<String>,
@@ -45,7 +45,7 @@ impl CheckedStudy {
         let run = StudyRun::new(language, study);
         let mut reported = Reported::default();
         let mut refused: Vec<Stopped> = Vec::new();
-        let mut plans = Vec::new();
+        let (mut plans, mut asked) = (Vec::new(), Vec::<Findings>::new());
         if let Some(findings) = study.data_findings() {
             reported.add(&findings);
             refused.push(findings.into());
@@ -56,9 +56,18 @@ impl CheckedStudy {
                 break;
             }
             let shortened = run.study_for_analysis();
-            let stopped = match run.plan(&Planner::new(language, &shortened, name)) {
+            let planner = Planner::new(language, &shortened, name).looking_at_machines();
+            let stopped = match run.plan(&planner) {
                 Ok(work) => {
                     plans.push((name.to_owned(), work));
+                    // Analyses of one grid ask the same: the first says it.
+                    if let Some(mut warnings) = planner.warnings() {
+                        let known = asked.iter().flat_map(|findings| &findings.list);
+                        warnings
+                            .list
+                            .retain(|warning| known.clone().all(|other| other.message != warning.message));
+                        asked.push(warnings);
+                    }
                     continue;
                 }
                 Err(stopped) => stopped,
@@ -71,7 +80,8 @@ impl CheckedStudy {
                 refused.push(stopped);
             }
         }
-        let Cautions { warnings, notes } = study.cautions(language);
+        let Cautions { mut warnings, notes } = study.cautions(language);
+        warnings.extend(asked);
         Self {
             refused,
             plans,

@@ -253,6 +253,11 @@ impl Table {
 }
 
 impl<R> TableOf<R> {
+    /// The rows.
+    pub fn rows(&self) -> &[R] {
+        &self.rows
+    }
+
     /// Adds a column of texts; empty ones are gaps.
     pub fn text<'t, T: Into<Cow<'t, str>>>(
         self,

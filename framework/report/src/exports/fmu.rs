@@ -66,6 +66,10 @@ impl ExportFormat for OfVersion {
         Ok(())
     }
 
+    fn joins_temperatures(&self) -> bool {
+        true
+    }
+
     fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
         of_set(map)
     }

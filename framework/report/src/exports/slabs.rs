@@ -14,6 +14,10 @@ macro_rules! of_all_maps {
             GridTable::fit(axes)
         }
 
+        fn joins_temperatures(&self) -> bool {
+            true
+        }
+
         fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a gearloss_studies::analyses::map::MapOfSet> {
             map.siblings.clone()
         }

@@ -10,6 +10,7 @@ use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
 use crate::text::significant;
+use crate::unit;
 
 register_view!(BalanceOutcome, show);
 
@@ -19,6 +20,7 @@ fn show(outcome: &BalanceOutcome, page: &mut Page) {
     for of_set in &outcome.balances {
         page.line(format!("{name}: models {}", of_set.model_set));
         page.lines(balance_text(&of_set.balance, false));
+        page.lines(unit::line(of_set.unit.as_ref()));
         page.line("");
         figures(&format!("{name}-{}", of_set.model_set), &of_set.balance, page);
     }

@@ -9,6 +9,7 @@ use crate::page::Page;
 use crate::plot::Bar;
 use crate::register_view;
 use crate::text::{TextTable, fixed, number, spread};
+use crate::unit;
 
 register_view!(BreakdownOutcome, show);
 
@@ -113,6 +114,15 @@ impl Row<'_> {
         line("sum", &|point| Some(point.losses.shares()?.iter().sum()));
         if self.points.iter().any(|point| point.losses.measured().is_some()) {
             line("measured", &|point| point.losses.measured());
+        }
+        let has_unit = self.points.iter().any(|point| point.unit.is_some());
+        for (k, title) in unit::head(has_unit).iter().enumerate() {
+            let cell = |i: &usize| unit::cells(has_unit, self.points[*i].unit.as_ref()).swap_remove(k);
+            table.row(
+                std::iter::once((*title).to_owned())
+                    .chain(shown.iter().map(cell))
+                    .collect(),
+            );
         }
         page.table(table);
         page.line("");

@@ -129,14 +129,53 @@ struct Sweep<'a> {
     second_words: Vec<String>,
 }
 
-/// Name, unit, which end is good, and reader of a quantity.
-type Quantity = (&'static str, &'static str, Best, fn(&PointOfSweep) -> Option<f64>);
+/// A quantity at the points of a sweep.
+#[derive(Clone, Copy)]
+struct Quantity {
+    words: &'static str,
+    unit: &'static str,
+    /// In names of figures.
+    file: &'static str,
+    best: Best,
+    /// Whether it has a table, besides its figures.
+    in_table: bool,
+    read: fn(&PointOfSweep) -> Option<f64>,
+}
 
-const QUANTITIES: [Quantity; 2] = [
-    ("loss", "W", Best::Lowest, |point| point.loss_w),
-    ("efficiency", "%", Best::Highest, |point| {
-        point.efficiency.map(|e| 100.0 * e)
-    }),
+/// Those of the drive unit have no value without machines.
+const QUANTITIES: [Quantity; 4] = [
+    Quantity {
+        words: "loss",
+        unit: "W",
+        file: "loss",
+        best: Best::Lowest,
+        in_table: true,
+        read: |point| point.loss_w,
+    },
+    Quantity {
+        words: "efficiency",
+        unit: "%",
+        file: "efficiency",
+        best: Best::Highest,
+        in_table: false,
+        read: |point| Some(100.0 * point.efficiency?),
+    },
+    Quantity {
+        words: "loss of the drive unit",
+        unit: "W",
+        file: "unit-loss",
+        best: Best::Lowest,
+        in_table: true,
+        read: |point| Some(point.unit?.unit_loss_w),
+    },
+    Quantity {
+        words: "system efficiency",
+        unit: "%",
+        file: "system-efficiency",
+        best: Best::Highest,
+        in_table: true,
+        read: |point| Some(100.0 * point.unit?.system_efficiency?),
+    },
 ];
 
 impl<'a> Sweep<'a> {
@@ -188,9 +227,16 @@ impl<'a> Sweep<'a> {
         values.filter(|value| value.places[1] == second).collect()
     }
 
-    /// The loss over the first values at one second value.
+    /// Those that points can have: without machines none of the drive unit.
+    fn quantities(&self) -> impl Iterator<Item = Quantity> {
+        let mut points = self.outcome.sweep.iter().flat_map(|value| &value.points);
+        let has_unit = points.any(|point| point.unit.is_some());
+        let count = if has_unit { QUANTITIES.len() } else { 2 };
+        QUANTITIES.into_iter().take(count)
+    }
+
+    /// Tables over the first values at one second value.
     fn table(&self, set: &'a str, second: usize, page: &mut Page) {
-        type Read = fn(&PointOfSweep) -> Option<f64>;
         let values: Vec<Option<&SweepOfValue>> = (0..self.words.len()).map(|i| self.cell(set, [i, second])).collect();
         let Some(first) = values.iter().flatten().next() else {
             return;
@@ -201,17 +247,10 @@ impl<'a> Sweep<'a> {
         };
         let mut titles = vec!["torque Nm", "speed rpm"];
         titles.extend(self.words.iter().map(String::as_str));
-        let of_unit: [(&str, Read); 2] = [
-            ("loss of the drive unit in W", |point| Some(point.unit?.unit_loss_w)),
-            ("system efficiency in %", |point| {
-                Some(100.0 * point.unit?.system_efficiency?)
-            }),
-        ];
-        let has_unit = first.points.iter().any(|point| point.unit.is_some());
-        let quantities = std::iter::once(("loss in W", (|point| point.loss_w) as Read));
-        for (words, read) in quantities.chain(of_unit.into_iter().filter(|_| has_unit)) {
+        for quantity in self.quantities().filter(|quantity| quantity.in_table) {
+            let Quantity { words, unit, read, .. } = quantity;
             page.line(format!(
-                "{}: {words} over {}, models {set}{beside}",
+                "{}: {words} in {unit} over {}, models {set}{beside}",
                 self.name, self.path
             ));
             let mut table = TextTable::new(&titles);
@@ -285,6 +324,22 @@ impl<'a> Sweep<'a> {
         let names = self.outcome.sweep.first().map(|value| value.shares.clone());
         let loss = "loss in W".to_owned();
         add("loss", "loss and efficiency", loss, names.unwrap_or_default(), losses);
+        let units = bars(&|_, point| {
+            let unit = point.unit.as_ref()?;
+            let efficiency = unit
+                .system_efficiency
+                .map(|share| format!(", {} %", short(100.0 * share)));
+            let above = format!("{} W{}", short(unit.unit_loss_w), efficiency.unwrap_or_default());
+            Some((vec![point.loss_w?, unit.machine_loss_w, unit.inverter_loss_w], above))
+        });
+        let names = ["gearbox", "machines", "inverters"].map(str::to_owned);
+        add(
+            "unit",
+            "loss and efficiency of the drive unit",
+            "loss in W".to_owned(),
+            names.to_vec(),
+            units,
+        );
         let single = |value: f64, unit: &str| (vec![value], format!("{}{}", short(value), after(unit)));
         let temperatures = bars(&|_, point| Some(single(point.oil_temperature_degc?, "°C")));
         let differs = |bars: &[Bar]| bars.windows(2).any(|pair| pair[0].shares != pair[1].shares);
@@ -318,15 +373,21 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Loss and efficiency over the values.
+    /// Loss and efficiency over the values, of the gearbox and of the drive unit.
     fn figures(&self, page: &mut Page) {
-        for shown in QUANTITIES {
-            let (short, unit, _, read) = shown;
-            let y = format!("{short} in {unit}");
+        for quantity in self.quantities() {
+            let Quantity {
+                words,
+                unit,
+                file,
+                read,
+                ..
+            } = quantity;
+            let y = format!("{words} in {unit}");
             if let Some(second_path) = self.second_path {
-                for map in self.maps(second_path, shown) {
+                for map in self.maps(second_path, quantity) {
                     let title = map.title.replace([' ', ',', ':'], "");
-                    page.figure(format!("{}-{short}-{title}", self.name), Figure::Map(map));
+                    page.figure(format!("{}-{file}-{title}", self.name), Figure::Map(map));
                 }
                 continue;
             }
@@ -338,7 +399,7 @@ impl<'a> Sweep<'a> {
                     y,
                     lines,
                 };
-                page.figure(format!("{}-{short}", self.name), figure);
+                page.figure(format!("{}-{file}", self.name), figure);
             }
         }
     }
@@ -424,7 +485,14 @@ impl<'a> Sweep<'a> {
     }
 
     /// A map over both paths for each set, torque and speed.
-    fn maps(&self, second_path: &str, (shown, unit, best, read): Quantity) -> Vec<Map> {
+    fn maps(&self, second_path: &str, quantity: Quantity) -> Vec<Map> {
+        let Quantity {
+            words,
+            unit,
+            best,
+            read,
+            ..
+        } = quantity;
         let printed = |words: &[String]| words.iter().map(|word| with_printed_units(word)).collect();
         let mut maps = Vec::new();
         for set in self.sets() {
@@ -436,7 +504,7 @@ impl<'a> Sweep<'a> {
                 if values.iter().any(Option::is_some) {
                     maps.push(Map {
                         title: format!(
-                            "{}: {shown} in {unit}, models {set}, {}",
+                            "{}: {words} in {unit}, models {set}, {}",
                             self.name,
                             words_of_point(point)
                         ),

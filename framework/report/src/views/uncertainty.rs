@@ -22,12 +22,15 @@ type Quantity = (
     fn(&PointOfBand) -> QuantityBand,
 );
 
-const QUANTITIES: [Quantity; 6] = [
+const QUANTITIES: [Quantity; 7] = [
     ("efficiency", "efficiency", "%", |p| p.efficiency_percent),
     ("loss_w", "loss", "W", |p| p.loss_w),
     ("loss_torque_nm", "loss torque", "Nm", |p| p.loss_torque_nm),
     ("oil_temperature_degc", "oil temperature", "degC", |p| {
         p.oil_temperature_degc
+    }),
+    ("dc_power_w", "power of the DC link", "W", |p| {
+        p.dc_power_w.unwrap_or_default()
     }),
     ("unit_loss_w", "loss of the drive unit", "W", |p| {
         p.unit_loss_w.unwrap_or_default()

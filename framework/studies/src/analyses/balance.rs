@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Run, Runs, Stopped};
-use crate::points::{Given, Note, notes};
+use crate::points::{Given, Note, UnitPoint, notes, unit_of};
 use crate::register_analysis;
 use crate::study::{Uses, Write};
 use crate::table::Table;
@@ -60,6 +60,9 @@ pub struct BalanceOfSet {
     pub gear: String,
     /// The balance.
     pub balance: BalanceOfPoint,
+    /// The drive unit at the temperature found; absent without one, and without machines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<UnitPoint>,
     /// Notes of models at the temperature found.
     pub notes: Vec<Note>,
 }
@@ -255,9 +258,10 @@ impl Analysis for BalanceEntry {
             };
             let mut scratch = t.scratch(&case);
             let found = t.equilibrium(&case, &point, &mut scratch);
+            let mut unit = None;
             if let Some(oil) = found.oil() {
                 // Notes belong to the temperature found.
-                t.evaluate(&case, &point, &[oil], &mut scratch);
+                unit = unit_of(t, &t.evaluate(&case, &point, &[oil], &mut scratch), &[oil]);
                 let given = Given {
                     oil: Some(oil),
                     ..Given::new(self.torque, self.speed)
@@ -268,6 +272,7 @@ impl Analysis for BalanceEntry {
                 model_set: run.built.name.clone(),
                 gear: run.points.gear.clone(),
                 balance: BalanceOfPoint::new(t, &found),
+                unit,
                 notes: notes(t, &scratch.totals),
             });
         }
@@ -317,7 +322,16 @@ impl Outcome for BalanceOutcome {
             if *i < of_set.balance.scan { "scan" } else { "solution" }
         })
         .fields("oil_temperature_degc loss_w heat_w residual_w", |(_, (_, step))| step);
-        vec![table.finish()]
+        let units = self.balances.iter();
+        let units = units.filter_map(|of_set| Some((of_set, of_set.unit.as_ref()?)));
+        let units = Table::of(format!("{}-unit", self.head.analysis), units)
+            .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
+            .fields("oil_temperature_degc", |(of_set, _)| &of_set.balance);
+        let mut tables = vec![table.finish()];
+        if !units.rows().is_empty() {
+            tables.push(UnitPoint::add_to(units, |(_, unit)| Some(unit)).finish());
+        }
+        tables
     }
 
     fn notes(&self) -> Vec<&Note> {

@@ -276,8 +276,6 @@ impl Outcome for OperatingPointsOutcome {
 
     fn tables(&self) -> Vec<Table> {
         let shares = self.operating_points.first().map_or(&[][..], |of_set| &of_set.shares);
-        let mut points = self.operating_points.iter().flat_map(|of_set| &of_set.points);
-        let has_unit = points.any(|point| point.unit.is_some());
         let table = Table::of_each(&self.head.analysis, &self.operating_points, |of_set| &of_set.points)
             .text("model_set", "Model set", |(of_set, _)| &of_set.model_set)
             .fields("gear name", |(_, point)| point)
@@ -328,17 +326,12 @@ impl Outcome for OperatingPointsOutcome {
                 table.number(format!("{share}_w"), "W", format!("Loss: {share}"), |(_, point)| {
                     point.losses_w.as_ref().map(|watts| watts[i])
                 })
-            })
-            .each(UnitPoint::columns(has_unit), |table, column| {
-                table.number(column.name, column.unit, column.meaning, |(_, point)| {
-                    point.unit.as_ref().and_then(column.read)
-                })
-            })
-            .each(&self.limits, |table, limit| {
-                table.number(limit.key(), limit.unit, limit.words.clone(), |(_, point)| {
-                    point.limit_values.get(&limit.name).copied().flatten()
-                })
             });
+        let table = UnitPoint::add_to(table, |(_, point)| point.unit.as_ref()).each(&self.limits, |table, limit| {
+            table.number(limit.key(), limit.unit, limit.words.clone(), |(_, point)| {
+                point.limit_values.get(&limit.name).copied().flatten()
+            })
+        });
         vec![table.finish()]
     }
 

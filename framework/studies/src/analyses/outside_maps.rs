@@ -43,7 +43,15 @@ impl MachineOutside {
 
     /// At one point with a torque \[Nm\] and a speed \[rad/s\].
     fn at(machine: &Machine, [torque, speed]: [f64; 2]) -> Self {
-        let [torque_beyond_nm, speed_beyond] = machine.excess(speed, torque);
+        Self::beyond(machine, [torque, speed], machine.excess(speed, torque))
+    }
+
+    /// At one point with a torque and a speed, and by how much they are beyond. \[Nm, rad/s\]
+    pub(super) fn beyond(
+        machine: &Machine,
+        [torque, speed]: [f64; 2],
+        [torque_beyond_nm, speed_beyond]: [f64; 2],
+    ) -> Self {
         Self {
             machine: machine.path.clone(),
             points: 1,
@@ -73,25 +81,31 @@ impl MachineOutside {
     }
 
     /// How far it is outside, by the power that the excess has.
-    fn size(&self) -> f64 {
+    pub(super) fn size(&self) -> f64 {
         self.torque_beyond_nm * self.speed_rpm.abs() + self.speed_beyond_rpm * self.torque_nm.abs()
     }
 
     /// What a reader has to be careful about.
     pub fn caution(&self) -> String {
+        format!(
+            "{}; the loss at the edge of the map is used",
+            self.words("outside its map")
+        )
+    }
+
+    /// Where it is beyond something, and how far.
+    pub(super) fn words(&self, beyond: &str) -> String {
         let place = if self.size() > 0.0 {
-            let beyond = beyond_words(self.torque_beyond_nm, self.speed_beyond_rpm);
+            let excess = beyond_words(self.torque_beyond_nm, self.speed_beyond_rpm);
             format!(
-                ", farthest with {:.1} Nm at {:.0} rpm{beyond}",
+                ", farthest with {:.1} Nm at {:.0} rpm{excess}",
                 self.torque_nm, self.speed_rpm
             )
         } else {
             String::new()
         };
-        format!(
-            "`{}` is outside its map at {} points{place}; the loss at the edge of the map is used",
-            self.machine, self.points
-        )
+        let points = if self.points == 1 { "point" } else { "points" };
+        format!("`{}` is {beyond} at {} {points}{place}", self.machine, self.points)
     }
 }
 

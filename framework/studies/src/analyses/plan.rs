@@ -126,6 +126,16 @@ impl<'a> Run<'a> {
     /// # Errors
     /// Points that do not fit, and wrong limits of the study.
     pub fn new(cx: &Planner<'_>, built: &Arc<Built<'a>>, points: Points) -> Result<Self, Stopped> {
+        let run = Self::of_gear(cx, built, points)?;
+        cx.look_at_machines(&built.transmission, &[&run.points]);
+        Ok(run)
+    }
+
+    /// The same in one of several gears, of which one is chosen at each point: who chooses looks at what they ask of machines.
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    pub(super) fn of_gear(cx: &Planner<'_>, built: &Arc<Built<'a>>, points: Points) -> Result<Self, Stopped> {
         let run = Self::without_limits(cx, built, points)?;
         Ok(Self {
             watch: cx.watch(built)?.map(Arc::new),

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use gearloss_framework::document::{Code, Diagnostic};
-use gearloss_framework::gearbox::Gearbox;
+use gearloss_framework::gearbox::{Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::transmission::{Case, Transmission};
@@ -14,6 +14,7 @@ use super::head::{Head, InputFile};
 use super::identify::IdentifyEntry;
 use super::limits::Scope;
 use super::limits::at_points::Watch;
+use super::machines_asked::MachinesAsked;
 use super::model_error::{ModelError, ModelErrorOfSet, weigh};
 use super::stopped::Stopped;
 use crate::codes;
@@ -66,6 +67,8 @@ pub struct Planner<'a> {
     pub name: &'a str,
     /// Its own lock, because files are also read in parallel.
     record: Mutex<Record>,
+    /// What points ask of machines; absent where nothing looks at it.
+    machines_asked: Option<Mutex<MachinesAsked>>,
 }
 
 impl<'a> Planner<'a> {
@@ -76,7 +79,33 @@ impl<'a> Planner<'a> {
             study,
             name,
             record: Mutex::default(),
+            machines_asked: None,
         }
+    }
+
+    /// The same, which also looks at what the points ask of machines, for [`Planner::warnings`].
+    pub fn looking_at_machines(self) -> Self {
+        Self {
+            machines_asked: Some(Mutex::default()),
+            ..self
+        }
+    }
+
+    /// Looks at points in a gear, or in the best one of several gears.
+    pub(super) fn look_at_machines(&self, t: &Transmission, gears: &[&Points]) {
+        if let Some(asked) = &self.machines_asked {
+            asked.lock().unwrap_or_else(PoisonError::into_inner).add(t, gears);
+        }
+    }
+
+    /// Warnings about the points that were planned; absent without any.
+    pub fn warnings(&self) -> Option<Findings> {
+        let asked = self.machines_asked.as_ref()?;
+        let list = asked
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .warnings(&self.path());
+        (!list.is_empty()).then(|| self.study.findings(list))
     }
 
     /// Whether the machines of a gearbox lose power under the conditions of the study.

@@ -316,13 +316,7 @@ impl Outcome for ThermalLimitOutcome {
                 "limit_degc torque_nm speed_rpm outcome loss_w input_w output_w efficiency lowest_balance_degc",
                 |(_, limit)| limit,
             );
-        let mut limits = self.thermal_limits.iter().flat_map(|of_set| &of_set.limits);
-        let has_unit = limits.any(|limit| limit.unit.is_some());
-        let table = table.each(UnitPoint::columns(has_unit), |table, column| {
-            table.number(column.name, column.unit, column.meaning, |(_, limit)| {
-                limit.unit.as_ref().and_then(column.read)
-            })
-        });
+        let table = UnitPoint::add_to(table, |(_, limit)| limit.unit.as_ref());
         vec![table.finish()]
     }
 

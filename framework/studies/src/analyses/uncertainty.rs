@@ -132,6 +132,9 @@ pub struct PointOfBand {
     pub loss_torque_nm: QuantityBand,
     /// Oil temperature. [degC]
     pub oil_temperature_degc: QuantityBand,
+    /// Power out of the DC link into the machines; absent without machines. [W]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dc_power_w: Option<QuantityBand>,
     /// Losses of gearbox, machines and inverters; absent without machines. [W]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit_loss_w: Option<QuantityBand>,
@@ -287,7 +290,7 @@ type Quantity = (
     fn(&PointOfBand) -> Option<&QuantityBand>,
 );
 
-const QUANTITIES: [Quantity; 6] = [
+const QUANTITIES: [Quantity; 7] = [
     ("efficiency", "-", "Output power over input power", |p| {
         Some(&p.efficiency)
     }),
@@ -300,6 +303,9 @@ const QUANTITIES: [Quantity; 6] = [
     ),
     ("oil_temperature_degc", "degC", "Oil temperature", |p| {
         Some(&p.oil_temperature_degc)
+    }),
+    ("dc_power_w", "W", "Power out of the DC link into the machines", |p| {
+        p.dc_power_w.as_ref()
     }),
     ("unit_loss_w", "W", "Losses of gearbox, machines and inverters", |p| {
         p.unit_loss_w.as_ref()

@@ -4,6 +4,8 @@ use gearloss_framework::machine::{MachineState, Reached};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::table::TableOf;
+
 /// Quantities of the drive unit at a point. Every analysis that solves points has them from here.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct UnitPoint {
@@ -107,6 +109,16 @@ impl UnitPoint {
         } else {
             None
         }
+    }
+
+    /// Adds the columns of the unit of each row to a table; none if no row has a unit.
+    pub fn add_to<R>(table: TableOf<R>, unit: impl Fn(&R) -> Option<&Self>) -> TableOf<R> {
+        let has_unit = table.rows().iter().any(|row| unit(row).is_some());
+        table.each(Self::columns(has_unit), |table, column| {
+            table.number(column.name, column.unit, column.meaning, |row| {
+                unit(row).and_then(column.read)
+            })
+        })
     }
 
     /// The unit of machines and a gearbox with a loss \[W\]; `None` without machines.

@@ -25,6 +25,9 @@ pub fn add(outcome: &BalanceOutcome, page: &mut Page) {
                 short(oil)
             ));
             page.key_figure("oil temperature", short(oil), "°C", set);
+            if let Some(unit) = &found.unit {
+                page.key_figure("DC power", short(unit.dc_power_w), "W", set);
+            }
         } else {
             let why = balance.outcome.name();
             words.push(format!("{}{why}", of_set(set, outcome.balances.len())));

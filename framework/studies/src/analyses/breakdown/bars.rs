@@ -9,7 +9,7 @@ use crate::analyses::numbers::{RPM, tidy};
 use crate::analyses::shares::{Shares, together};
 use crate::analyses::{Built, Engine, Head, Outcome, Plan, Planner, Run, Runs, Stopped, Work};
 use crate::codes;
-use crate::points::{Given, GridResult, Note, PointResult, Points, TotalLoss, notes_with_shares};
+use crate::points::{Given, GridResult, Note, PointResult, Points, TotalLoss, UnitPoint, notes_with_shares};
 use crate::study::By;
 use crate::table::Table;
 
@@ -105,6 +105,9 @@ pub struct PointOfBreakdown {
     /// Losses in the unit of the breakdown.
     #[serde(flatten)]
     pub losses: Losses,
+    /// The drive unit; absent without machines.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<UnitPoint>,
     /// Accuracy of the measured loss, in its unit. [W or %]
     #[serde(skip)]
     pub accuracy: Option<f64>,
@@ -343,6 +346,7 @@ fn of_run(
             speed_rpm: tidy(p.speed * RPM),
             oil_temperature_degc: p.oil,
             losses: Losses::new(unit, losses, seen.map(|(loss, _)| loss)),
+            unit: p.unit(),
             accuracy: seen.map(|(_, accuracy)| accuracy),
         }
     };
@@ -397,7 +401,7 @@ impl Outcome for BreakdownOutcome {
                 loss,
                 |(_, _, _, loss)| *loss,
             );
-        vec![table.finish()]
+        vec![UnitPoint::add_to(table, |(_, point, ..)| point.unit.as_ref()).finish()]
     }
 
     fn notes(&self) -> Vec<&Note> {

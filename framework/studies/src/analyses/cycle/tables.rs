@@ -173,6 +173,13 @@ pub fn network<'a>(cx: &Planner<'_>, b: &'a Built<'_>, duties: &Duties<'_>) -> R
             "state `oil_flow` and shares of it in `thermal.network`, instead of `element` and `nozzle`",
         ));
     }
+    if let Some(machine) = network.and_then(|network| network.inverters().next()) {
+        return Err(cx.wrong(
+            &format!("{}.export", cx.path()),
+            format!("the FMU of a cycle has no heat of inverters, but that of `{machine}` heats a node"),
+            "delete `inverter.node` of the machine, or the export",
+        ));
+    }
     network.ok_or_else(|| {
         cx.wrong(
             &format!("{}.export", cx.path()),

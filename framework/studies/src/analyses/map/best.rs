@@ -56,13 +56,15 @@ pub fn runs<'a>(cx: &Planner<'a>, path: &str, built: &Arc<Built<'a>>, field: &Fi
         if runs.is_empty() {
             first = ratio;
         }
-        runs.push(Run::new(cx, built, points)?);
+        runs.push(Run::of_gear(cx, built, points)?);
     }
     if runs.is_empty() {
         let error = Diagnostic::error(path, "no gear of the gearbox connects the ports");
         let help = "describe such a state under `gear_states`, or name the gears of the map";
         return Err(cx.found(vec![error.help(help).code(codes::GEAR_CHOICE)]));
     }
+    let points: Vec<&Points> = runs.iter().map(|run| &run.points).collect();
+    cx.look_at_machines(t, &points);
     Ok(runs)
 }
 

@@ -57,6 +57,12 @@ pub trait ExportFormat: Sync {
         ))
     }
 
+    /// Whether its table has the oil temperature as an axis, so that maps that differ in it are one table, and those that differ in anything
+    /// else none.
+    fn joins_temperatures(&self) -> bool {
+        false
+    }
+
     /// The maps in the file of a map, for the interpolation error that is reported with it.
     fn covered<'a>(&self, map: &ExportMap<'a>) -> Vec<&'a MapOfSet> {
         vec![map.map]

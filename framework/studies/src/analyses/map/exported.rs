@@ -81,6 +81,14 @@ pub(super) fn check(
         if let Err(refusal) = name.format().takes(of) {
             return Err(cx.wrong_as(codes::NO_MACHINE, &path, refusal.message, &refusal.help));
         }
+        if let Some(bound) = not_an_axis(planned).filter(|_| name.format().joins_temperatures()) {
+            let message = format!(
+                "a `{}` table has torque, speed and oil temperature as axes, but the maps of the grid differ in `{bound}`",
+                name.format().name()
+            );
+            let help = "bind one value of it, and write a grid and a map for each other value";
+            return Err(cx.wrong(&path, message, help));
+        }
         for plan in planned {
             let t = &plan.run.built.transmission;
             let reference = &t.ports()[t.reference_port()].name;
@@ -102,6 +110,18 @@ pub(super) fn check(
         }
     }
     Ok(())
+}
+
+/// A bound path besides the oil temperature in which maps of one set and gear differ, such as the voltage of a machine.
+fn not_an_axis<'p>(planned: &'p [Planned<'_>]) -> Option<&'p str> {
+    let of = |plan: &'p Planned<'_>| (&plan.run.built.name, &plan.run.points.gear, plan.run.points.oil);
+    let pairs = planned.iter().enumerate();
+    let mut pairs = pairs.flat_map(|(i, plan)| planned[..i].iter().map(move |other| (other, plan)));
+    pairs.find_map(|(one, other)| {
+        let mut bound = one.bound.iter().zip(&other.bound);
+        let (differs, _) = bound.find(|(a, b)| a.1 != b.1 && !a.0.starts_with("thermal."))?;
+        (of(one) == of(other)).then_some(differs.0.as_str())
+    })
 }
 
 /// The machines of a map that shows them, over speeds of the reference port. \[rad/s\]

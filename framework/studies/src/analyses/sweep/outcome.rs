@@ -286,8 +286,6 @@ impl Outcome for SweepOutcome {
         let second = first.and_then(|value| value.second.as_ref());
         let shares = first.map_or(&[][..], |value| &value.shares);
         let with_path = "Value of the path as in the study";
-        let mut points = self.sweep.iter().flat_map(|value| &value.points);
-        let has_unit = points.any(|point| point.unit.is_some());
         let table = Table::of_each(&self.head.analysis, &self.sweep, |value| &value.points)
             .text("model_set", "Model set", |(value, _)| &value.model_set)
             .text("gear", "Gear", |(value, _)| &value.gear)
@@ -311,17 +309,12 @@ impl Outcome for SweepOutcome {
                 table.number(format!("{share}_w"), "W", format!("Loss of {share}"), |(_, point)| {
                     point.losses_w.as_ref().map(|losses| losses[i])
                 })
-            })
-            .each(UnitPoint::columns(has_unit), |table, column| {
-                table.number(column.name, column.unit, column.meaning, |(_, point)| {
-                    point.unit.as_ref().and_then(column.read)
-                })
-            })
-            .each(&self.limits, |table, limit| {
-                table.number(limit.key(), limit.unit, limit.words.clone(), |(_, point)| {
-                    point.limit_values.get(&limit.name).copied().flatten()
-                })
             });
+        let table = UnitPoint::add_to(table, |(_, point)| point.unit.as_ref()).each(&self.limits, |table, limit| {
+            table.number(limit.key(), limit.unit, limit.words.clone(), |(_, point)| {
+                point.limit_values.get(&limit.name).copied().flatten()
+            })
+        });
         vec![table.finish()]
     }
 

@@ -30,6 +30,8 @@ pub struct PointOfSample {
     loss_torque: f64,
     /// Temperature of the oil. \[°C\]
     oil: f64,
+    /// Power out of the DC link. \[W\]
+    dc_power: f64,
     /// Loss of the drive unit. \[W\]
     unit_loss: f64,
     /// Efficiency of the drive unit. \[-\]
@@ -45,6 +47,7 @@ impl From<&PointResult> for PointOfSample {
             loss: number(point.loss),
             loss_torque: number(point.loss_torque),
             oil: number(point.oil),
+            dc_power: number(unit.map(|unit| unit.dc_power_w)),
             unit_loss: number(unit.map(|unit| unit.unit_loss_w)),
             system_efficiency: number(unit.and_then(|unit| unit.system_efficiency)),
         }
@@ -131,6 +134,7 @@ impl Samples {
                 loss_w: quantity(|p| p.loss),
                 loss_torque_nm: quantity(|p| p.loss_torque),
                 oil_temperature_degc: quantity(|p| p.oil),
+                dc_power_w: quantity(|p| p.dc_power).known(),
                 unit_loss_w: quantity(|p| p.unit_loss).known(),
                 system_efficiency: system_percent.scaled(0.01).known(),
                 system_percent,

@@ -13,11 +13,6 @@ const SLOWEST: f64 = 0.1;
 impl Tabulated<'_> {
     /// Losses of the motors, at the reference port over the axes of their own maps.
     pub fn motors(&self) -> Result<Vec<fmu::Source>, String> {
-        if let Some(machine) = self.network.inverters().next() {
-            return Err(format!(
-                "the heat of the inverter of `{machine}` cannot be tabulated: delete `inverter.node` for the export"
-            ));
-        }
         let mut sources = Vec::new();
         let reference = self.t.ports()[self.t.reference_port()].member;
         for motor in 0..self.network.motors().len() {
