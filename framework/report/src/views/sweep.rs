@@ -317,8 +317,7 @@ impl<'a> Sweep<'a> {
         };
         let losses = bars(&|_, point| {
             let loss = point.loss_w?;
-            let efficiency = point.efficiency.map(|share| format!(", {} %", short(100.0 * share)));
-            let above = format!("{} W{}", short(loss), efficiency.unwrap_or_default());
+            let above = watts_and_share(loss, point.efficiency);
             Some((point.losses_w.clone().unwrap_or_else(|| vec![loss]), above))
         });
         let names = self.outcome.sweep.first().map(|value| value.shares.clone());
@@ -326,10 +325,7 @@ impl<'a> Sweep<'a> {
         add("loss", "loss and efficiency", loss, names.unwrap_or_default(), losses);
         let units = bars(&|_, point| {
             let unit = point.unit.as_ref()?;
-            let efficiency = unit
-                .system_efficiency
-                .map(|share| format!(", {} %", short(100.0 * share)));
-            let above = format!("{} W{}", short(unit.unit_loss_w), efficiency.unwrap_or_default());
+            let above = watts_and_share(unit.unit_loss_w, unit.system_efficiency);
             Some((vec![point.loss_w?, unit.machine_loss_w, unit.inverter_loss_w], above))
         });
         let names = ["gearbox", "machines", "inverters"].map(str::to_owned);
@@ -525,6 +521,12 @@ impl<'a> Sweep<'a> {
 /// Values as numbers without their unit; nothing if one of them is a name.
 pub(super) fn numbers(words: &[String]) -> Option<Vec<f64>> {
     words.iter().map(|word| word.split(' ').next()?.parse().ok()).collect()
+}
+
+/// A loss with the efficiency, if there is one, above a bar.
+fn watts_and_share(watts: f64, share: Option<f64>) -> String {
+    let share = share.map(|share| format!(", {} %", short(100.0 * share)));
+    format!("{} W{}", short(watts), share.unwrap_or_default())
 }
 
 fn words_of_point(point: &PointOfSweep) -> String {
