@@ -98,7 +98,6 @@ impl Transmission {
         frame.leans = leans.to_vec();
         let frame = frame;
         let (entry, members, ports) = (&frame.entry, &frame.members, &frame.ports);
-        warnings.extend(lean::without_effect(entry, &resolved.value));
         let mut oils = frame.oils(resolved, &mut memory);
         let mut build = Build::again(language.registry(), files, memory);
         build.oil_elements = Some(element_paths(entry));
@@ -358,6 +357,7 @@ impl Frame {
             }
         }
         classify(found, codes::GEARING);
+        warnings.extend(lean::without_effect(&entry, &resolved.value));
         let transfers = transfers::seats(&entry, &members, found, warnings);
         let nodes = NodeNames::new(&entry, found);
         classify(found, codes::NETWORK);

@@ -56,10 +56,10 @@ impl Drags<'_, '_, '_> {
         }
         for (number, mesh) in self.meshes.iter().enumerate() {
             let id = mesh.path.strip_prefix("meshes.");
-            if let Some(written) = id.and_then(|id| self.entry.meshes.get(id)) {
-                if let Some(place) = self.on_mesh(number, mesh, (&written.common).into()) {
-                    self.add(written.drag.as_ref(), &place);
-                }
+            if let Some(written) = id.and_then(|id| self.entry.meshes.get(id))
+                && let Some(place) = self.on_mesh(number, mesh, (&written.common).into())
+            {
+                self.add(written.drag.as_ref(), &place);
             }
         }
         self.check_meshes_against_gears();

@@ -592,14 +592,11 @@ fn seated_pocket(
 ) -> Option<Pocket> {
     let PocketEntry {
         edge,
-        edge_radius,
-        edge_width,
-        edge_length,
-        edge_sharp,
         drain,
         rib,
         window,
         length,
+        ..
     } = pocket.entry.clone();
     let path = format!("{}.pocket", pocket.path);
     let id = pocket.path.strip_prefix("bearings.").unwrap_or_default();
@@ -609,41 +606,7 @@ fn seated_pocket(
                 .help("remove `oil_height` or `pocket`"),
         );
     }
-    let edge_of = match (edge_radius, edge_width) {
-        (Some(radius), None) => Edge::Circle { radius },
-        (None, Some(width)) if edge_sharp => Edge::Sharp { width, discharge: 0.62 },
-        (None, Some(width)) => Edge::Sill {
-            width,
-            length: edge_length,
-        },
-        (radius, _) => {
-            let both = if radius.is_some() { "two shapes" } else { "no shape" };
-            found.push(
-                Diagnostic::error(path, format!("the edge of the pocket has {both}")).help(
-                    "state `edge_radius` for the bore of a cage, shoulder or seal, or `edge_width` for a straight slot",
-                ),
-            );
-            return None;
-        }
-    };
-    if edge_length > 0.0 && (edge_radius.is_some() || edge_sharp) {
-        found.push(
-            Diagnostic::error(
-                format!("{path}.edge_length"),
-                "only a straight edge that is not sharp has a length",
-            )
-            .help("remove it, or state only `edge_width`"),
-        );
-    }
-    if edge_sharp && edge_radius.is_some() {
-        found.push(
-            Diagnostic::error(
-                format!("{path}.edge_sharp"),
-                "the law of a circular edge has no sharp form",
-            )
-            .help("remove it, or state `edge_width` instead of `edge_radius`"),
-        );
-    }
+    let edge_of = overflow_edge(&pocket.entry, &path, found)?;
     let feeds: Vec<(usize, f64)> = network.feeding(&pocket.path).collect();
     let caught = rib.filter(|rib| rib.wetting.is_none());
     let inflow = rib.map_or(0.0, |rib| rib.wetting.unwrap_or(0.0) * rib.rib().share(f64::INFINITY));
@@ -697,6 +660,53 @@ fn seated_pocket(
         oil: pocket.oil,
         of_sump,
     })
+}
+
+/// What the oil of a pocket flows over.
+fn overflow_edge(entry: &PocketEntry, path: &str, found: &mut Vec<Diagnostic>) -> Option<Edge> {
+    let &PocketEntry {
+        edge_radius,
+        edge_width,
+        edge_length,
+        edge_sharp,
+        ..
+    } = entry;
+    let edge = match (edge_radius, edge_width) {
+        (Some(radius), None) => Edge::Circle { radius },
+        (None, Some(width)) if edge_sharp => Edge::Sharp { width, discharge: 0.62 },
+        (None, Some(width)) => Edge::Sill {
+            width,
+            length: edge_length,
+        },
+        (radius, _) => {
+            let both = if radius.is_some() { "two shapes" } else { "no shape" };
+            found.push(
+                Diagnostic::error(path.to_owned(), format!("the edge of the pocket has {both}")).help(
+                    "state `edge_radius` for the bore of a cage, shoulder or seal, or `edge_width` for a straight slot",
+                ),
+            );
+            return None;
+        }
+    };
+    if edge_length > 0.0 && (edge_radius.is_some() || edge_sharp) {
+        found.push(
+            Diagnostic::error(
+                format!("{path}.edge_length"),
+                "only a straight edge that is not sharp has a length",
+            )
+            .help("remove it, or state only `edge_width`"),
+        );
+    }
+    if edge_sharp && edge_radius.is_some() {
+        found.push(
+            Diagnostic::error(
+                format!("{path}.edge_sharp"),
+                "the law of a circular edge has no sharp form",
+            )
+            .help("remove it, or state `edge_width` instead of `edge_radius`"),
+        );
+    }
+    Some(edge)
 }
 
 /// The room for oil between the rings of the bearing of a pocket with a length; no fault where another one was reported.

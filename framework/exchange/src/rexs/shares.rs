@@ -45,10 +45,8 @@ pub fn add(map: &Map<'_>, transmission: &Transmission, draft: &mut Draft) {
         };
         let face = mesh.gears.iter().filter_map(|id| {
             let gear = gears.iter().find(|gear| gear.id == *id)?;
-            Some(
-                gear.at
-                    .map(|at| [at - 0.5 * gear.facewidth, at + 0.5 * gear.facewidth])?,
-            )
+            let at = gear.at?;
+            Some([at - 0.5 * gear.facewidth, at + 0.5 * gear.facewidth])
         });
         let face = face.reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])]);
         let of = Teeth {
@@ -56,7 +54,7 @@ pub fn add(map: &Map<'_>, transmission: &Transmission, draft: &mut Draft) {
             stage,
             pair: &part.pair,
             gears: gear_ids(map, stage, mesh),
-            face: face.unwrap_or_default(),
+            face,
             cases: &cases,
         };
         let Some(table) = of.line_loads().or_else(|| of.factors()) else {
@@ -107,8 +105,8 @@ struct Teeth<'m, 'a> {
     stage: &'a Component,
     pair: &'m Pair,
     gears: [Id; 2],
-    /// Start and end of the face that both gears share. \[mm\]
-    face: [f64; 2],
+    /// Start and end of the face that both gears share, if they have positions. \[mm\]
+    face: Option<[f64; 2]>,
     cases: &'m [Values<'a>],
 }
 
@@ -253,7 +251,7 @@ impl<'a> Teeth<'_, 'a> {
             };
             let is_known = |(known, _): &(f64, Vec<Place>)| known.abs() == torque.abs() || known * torque < 0.0;
             if !blocks.iter().any(is_known) {
-                blocks.push((torque, self.loads(&values, set, &places)?));
+                blocks.push((torque, Self::loads(&values, set, &places)?));
             }
         }
         blocks.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
@@ -295,13 +293,12 @@ impl<'a> Teeth<'_, 'a> {
         let ids = read("point_ids", Quantity::Number).ok_or_else(|| format!("{} has no point_ids", list.label()))?;
         let radii = read("point_coordinates_radius", Quantity::Length);
         let along = read("point_coordinates_u_coord", Quantity::Length);
-        let points: Vec<[f64; 2]> = match (radii, along) {
-            (Some(radii), Some(along)) => radii.into_iter().zip(along).map(|(radius, u)| [radius, u]).collect(),
-            _ => {
-                let rows = source.points(list, "point_coordinates");
-                let rows = rows.ok_or_else(|| format!("{} has no coordinates of its points", list.label()))?;
-                rows.into_iter().map(|[u, v, w]| [v.hypot(w), u]).collect()
-            }
+        let points: Vec<[f64; 2]> = if let (Some(radii), Some(along)) = (radii, along) {
+            radii.into_iter().zip(along).map(|(radius, u)| [radius, u]).collect()
+        } else {
+            let rows = source.points(list, "point_coordinates");
+            let rows = rows.ok_or_else(|| format!("{} has no coordinates of its points", list.label()))?;
+            rows.into_iter().map(|[u, v, w]| [v.hypot(w), u]).collect()
         };
         if points.len() != ids.len() {
             return Err(format!(
@@ -315,7 +312,7 @@ impl<'a> Teeth<'_, 'a> {
         let frame = self.map.poses.get(component).zip(self.map.member_with(component));
         let (pose, member) = frame.ok_or("its gear has no position")?;
         let base = self.pair.base_radius[gear];
-        let [start, end] = self.face;
+        let [start, end] = self.face.ok_or("its gears have no positions on their shafts")?;
         let place = |[radius, u]: [f64; 2]| {
             let distance = (radius * 1e-3).powi(2) - base * base;
             let position = self
@@ -332,12 +329,7 @@ impl<'a> Teeth<'_, 'a> {
     }
 
     /// The line loads of a case at their places; points beside the path and the face carry none.
-    fn loads(
-        &self,
-        values: &Values<'a>,
-        set: &'a Component,
-        places: &BTreeMap<i64, [f64; 2]>,
-    ) -> Result<Vec<Place>, String> {
+    fn loads(values: &Values<'a>, set: &'a Component, places: &BTreeMap<i64, [f64; 2]>) -> Result<Vec<Place>, String> {
         let ids = values.numbers(set, "set_ids", Quantity::Number);
         let ids = ids.ok_or_else(|| format!("{} has no set_ids, which name the points of its values", set.label()))?;
         let loads = values

@@ -371,17 +371,17 @@ impl<'a> Sweep<'a> {
 
     /// Loss and efficiency over the values, of the gearbox and of the drive unit.
     fn figures(&self, page: &mut Page) {
-        for quantity in self.quantities() {
+        for drawn in self.quantities() {
             let Quantity {
                 words,
                 unit,
                 file,
                 read,
                 ..
-            } = quantity;
+            } = drawn;
             let y = format!("{words} in {unit}");
             if let Some(second_path) = self.second_path {
-                for map in self.maps(second_path, quantity) {
+                for map in self.maps(second_path, drawn) {
                     let title = map.title.replace([' ', ',', ':'], "");
                     page.figure(format!("{}-{file}-{title}", self.name), Figure::Map(map));
                 }
@@ -390,7 +390,7 @@ impl<'a> Sweep<'a> {
             let lines = self.lines(&read);
             if !lines.is_empty() {
                 let figure = Figure::Lines {
-                    title: format!("{}: {short} over {}", self.name, quantity(self.path)),
+                    title: format!("{}: {words} over {}", self.name, quantity(self.path)),
                     x: self.axis().1,
                     y,
                     lines,
@@ -481,14 +481,14 @@ impl<'a> Sweep<'a> {
     }
 
     /// A map over both paths for each set, torque and speed.
-    fn maps(&self, second_path: &str, quantity: Quantity) -> Vec<Map> {
+    fn maps(&self, second_path: &str, drawn: Quantity) -> Vec<Map> {
         let Quantity {
             words,
             unit,
             best,
             read,
             ..
-        } = quantity;
+        } = drawn;
         let printed = |words: &[String]| words.iter().map(|word| with_printed_units(word)).collect();
         let mut maps = Vec::new();
         for set in self.sets() {

@@ -115,7 +115,7 @@ fn standstill(outcome: &MapOutcome) -> Option<String> {
 /// The gears that are best at most points.
 fn best_gears(map: &MapOfSet) -> Option<String> {
     let mut gears: Vec<_> = map.best_gears.as_ref()?.gears.iter().collect();
-    gears.sort_by(|a, b| b.points.cmp(&a.points));
+    gears.sort_by_key(|gear| std::cmp::Reverse(gear.points));
     let used = gears.iter().filter(|gear| gear.points > 0).take(GEARS);
     let words = used.map(|gear| format!("{} at {} %", gear.gear, short(100.0 * gear.share)));
     let words = listed(&words.collect::<Vec<_>>());

@@ -296,19 +296,20 @@ impl<'a> Reader<'a, '_> {
         let names = Shares::new(&self.built.transmission, By::Mechanism).names;
         if mechanism != ALL && !names.iter().any(|name| name == mechanism) {
             let known: Vec<&str> = names.iter().map(String::as_str).chain([ALL]).collect();
-            let error = dangling(&format!("{of_mechanism}.mechanism"), "mechanism", mechanism, &known);
-            return Err(self.cx.found(vec![error]));
+            let message = format!("no loss of the gearbox belongs to `{mechanism}`");
+            let help = format!("write one of {}", known.join(", "));
+            return Err(self.cx.wrong(&format!("{of_mechanism}.mechanism"), message, &help));
         }
         let same = |known: &Simulation<'_>| known.drive == drive && known.set.iter().eq(set.iter());
-        let simulation = match self.simulations.iter().position(same) {
-            Some(known) => known,
-            None => {
-                let new = self.simulation(&format!("{of_drive}.drive"), drive, &format!("{of_set}.set"), set)?;
-                self.simulations.push(new);
-                self.simulations.len() - 1
-            }
-        };
-        Ok(MeanLoss { simulation, mechanism })
+        let known = self.simulations.iter().position(same);
+        if known.is_none() {
+            let new = self.simulation(&format!("{of_drive}.drive"), drive, &format!("{of_set}.set"), set)?;
+            self.simulations.push(new);
+        }
+        Ok(MeanLoss {
+            simulation: known.unwrap_or(self.simulations.len() - 1),
+            mechanism,
+        })
     }
 
     fn simulation(
