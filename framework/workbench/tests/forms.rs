@@ -59,6 +59,7 @@ fn every_field_is_written() {
                 }
                 FieldKind::Bearing => "6213".to_owned(),
                 FieldKind::Oil => "ISO VG 68 PAO".to_owned(),
+                FieldKind::Material => "steel".to_owned(),
                 FieldKind::Choice => field.choices[1].to_owned(),
             };
             let text = written(&layout, &values(&[(&field.path, &typed)])).unwrap().text;
