@@ -88,7 +88,7 @@ def identify(
         sections["measurements"] = {"measured": entry}
         analysis["data"] = "measured"
     for name, given in (cycles or {}).items():
-        entry, more = _entry(given, f"{name}.csv", shipped=True)
+        entry, more = _entry(given, f"cycle-{name}.csv", shipped=True)
         sections.setdefault("cycles", {})[name] = entry
         files |= more
     if vehicle is not None:

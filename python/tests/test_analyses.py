@@ -86,6 +86,19 @@ def test_identify_finds_what_was_hidden(gearbox):
     assert outcome.tables["identify-parameters"]["fitted"][0] == pytest.approx(1.3, rel=1e-9)
 
 
+def test_points_and_cycles_have_files_of_their_own(gearbox):
+    torque, speed = np.repeat([5.0, 10.0, 20.0], 4), np.tile([2000.0, 4000.0, 6000.0, 8000.0], 3)
+    hidden = gearbox.transmission(models="joint", set={"lubricants.sump.viscosity.factor": 1.3})
+    points = hidden.points(gear="first", torque=torque, speed=speed, oil_temperature=60)
+    measured = {"torque [Nm]": torque, "speed [rpm]": speed, "loss [W]": points.loss, "loss_accuracy [W]": np.ones(12)}
+    cycles = {"measured": {"time [s]": [0, 10], "speed [rpm]": [3000, 3000], "torque [Nm]": [10, 10]}}
+    means = {"vague": {"drive": {"cycles": ["measured"]}, "value": 100, "accuracy": 1e9}}
+    given = {"models": "joint", "gear": "first", "oil_temperature": 60, "starts": 1}
+    outcome = gl.identify(gearbox, measured, VISCOSITY, cycles=cycles, means=means, **given)
+    assert outcome.tables["identify-parameters"]["fitted"][0] == pytest.approx(1.3, rel=0.01)
+    assert outcome.tables["identify-means"]["mean"] == ["vague"]
+
+
 def test_wrong_arguments_are_errors(gearbox):
     with pytest.raises(gl.Findings, match="wltc_class3"):
         gl.cycle(gearbox, "wltc_clas3b")

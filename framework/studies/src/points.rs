@@ -24,7 +24,7 @@ pub use gearloss_numerics::statistics::{Statistics, bands, correlation, histogra
 pub use grid::{Field, Given, GridResult, PointResult, Points, merge, run_grid};
 pub use locking::{SelfLocking, self_locking};
 pub use notes::{
-    Note, STATIC_SAFETY, Stated, TotalLoss, WeakPoint, evidence, notes, notes_over_time, notes_with_shares,
+    Note, STATIC_SAFETY, Stated, TotalLoss, WeakPoint, evidence, merge_notes, notes, notes_over_time, notes_with_shares,
 };
 pub use pieces::{MOST_IN_FLIGHT, Make, Numbered, Piece, solve_pieces, take_points};
 pub use prepared::{PreparedPoint, SolvedPoint, unit_of};

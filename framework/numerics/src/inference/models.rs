@@ -44,7 +44,7 @@ pub struct FittedModel {
     pub criterion: f64,
     /// Errors over folds, if it was validated.
     pub validation: Option<Validation>,
-    /// Residuals of all points over their standard deviation.
+    /// Residuals of the points of the set over their standard deviation.
     pub residuals: Vec<f64>,
     /// Standard deviation of residuals that is used as the accuracy: one if accuracies are given.
     pub scatter: f64,

@@ -115,9 +115,13 @@ impl ErrorModel {
     }
 
     /// Squared norm of errors in units of their stated standard deviations: the sum of squares if they are independent.
+    ///
+    /// # Panics
+    /// If the shapes of common errors are those of another number of points.
     pub fn square(&self, errors: &[f64]) -> f64 {
         let squares: f64 = errors.iter().map(|e| e * e).sum();
-        let common = if self.correlation > 0.0 && self.shapes.nrows() == errors.len() {
+        let common = if self.correlation > 0.0 {
+            assert_eq!(self.shapes.nrows(), errors.len(), "shapes of other points");
             let along = self.shapes.tr_mul(&DVector::from_row_slice(errors));
             along.dot(&(&self.core * &along))
         } else {
@@ -207,6 +211,12 @@ mod tests {
         let (squares, sum) = (delta.norm_squared(), delta.sum());
         assert!((found - (squares - 0.4 * sum * sum / 2.6) / 0.6).abs() < 1e-12);
         assert_eq!(ErrorModel::new(1.0, 0.4, &[vec![0.0; 5]]).correlation, 0.0);
+    }
+
+    #[test]
+    #[should_panic(expected = "shapes of other points")]
+    fn shapes_are_those_of_the_points() {
+        ErrorModel::new(1.0, 0.4, &[vec![1.0; 4]]).square(&[1.0; 5]);
     }
 
     #[test]

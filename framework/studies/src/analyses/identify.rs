@@ -154,22 +154,16 @@ fn refuse(cx: &Planner<'_>, entry: &IdentifyEntry) -> Result<(), Stopped> {
             let help = "add `data` with measured points, `means` over cycles, or both";
             return Err(cx.wrong_as(codes::IDENTIFICATION, &path, "nothing is measured", help));
         }
-        let of_points = [
-            ("bind", !entry.bind.is_empty()),
-            ("hold_out", entry.hold_out.is_some()),
-            ("correction", entry.correction.is_some()),
-            ("next", entry.next.is_some()),
-            ("stack_at", entry.stack_at.is_some()),
-            ("accuracy_factors", entry.accuracy_factors),
-        ];
-        if let Some((key, _)) = of_points.iter().find(|(_, stated)| *stated) {
-            let message = format!("`{key}` needs measured points");
-            return Err(cx.wrong_as(
-                codes::IDENTIFICATION,
-                &format!("{path}.{key}"),
-                message,
-                "add `data`, or delete it",
-            ));
+        let needs_points = |key: &str, what: &str| {
+            let (place, message) = (format!("{path}.{key}"), format!("`{what}` needs measured points"));
+            cx.wrong_as(codes::IDENTIFICATION, &place, message, "add `data`, or delete it")
+        };
+        if let Some(key) = entry.key_of_points() {
+            return Err(needs_points(key, key));
+        }
+        let mut paths = (entry.parameters.iter()).filter_map(|(name, p)| Some((name, p.path.as_deref()?)));
+        if let Some((name, of_rig)) = paths.find(|(_, path)| path.starts_with("rig.")) {
+            return Err(needs_points(&format!("parameters.{name}.path"), of_rig));
         }
     }
     if entry.folds == FoldsEntry::Torques(1) {
@@ -313,7 +307,8 @@ fn held_out(cx: &Planner<'_>, entry: &IdentifyEntry, measured: &Measured) -> Res
     let of_entry = |p: &&IdentifiedEntry| p.over.as_ref().map_or(1, |over| over.torques.len());
     let count = free.iter().map(of_entry).sum();
     let priors = free.iter().filter(|p| p.prior.is_some()).count();
-    choice.leaves_enough(count, priors).map_err(|found| below(cx, found))?;
+    let others = priors + entry.means.len();
+    choice.leaves_enough(count, others).map_err(|found| below(cx, found))?;
     Ok(Some(choice))
 }
 

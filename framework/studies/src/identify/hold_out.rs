@@ -97,13 +97,13 @@ impl HoldOut {
         Ok(found)
     }
 
-    /// Rejects a selection with fewer rows than needed for the parameters, `parameters` minus `priors`.
+    /// Rejects a selection with fewer rows than needed for the parameters, `parameters` minus `others`: priors and means over cycles.
     ///
     /// # Errors
     /// If there are fewer.
-    pub fn leaves_enough(&self, parameters: usize, priors: usize) -> Result<(), Diagnostic> {
+    pub fn leaves_enough(&self, parameters: usize, others: usize) -> Result<(), Diagnostic> {
         let left = self.fitted.rows.len();
-        if left + priors >= parameters {
+        if left + others >= parameters {
             return Ok(());
         }
         let message = format!("{left} rows remain for the fit of {parameters} parameters");

@@ -3,6 +3,8 @@
 use gearloss_framework::loss::Extent;
 use serde_json::Value;
 
+use crate::points::Note;
+
 /// A measured or published mean.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mean {
@@ -33,6 +35,8 @@ pub struct CalculatedMeans {
     pub values: Vec<f64>,
     /// Observed limits and quantities of the cycles that are driven without other values of the gearbox.
     pub seen: Vec<Extent>,
+    /// Notes on the cycles that are driven with other values.
+    pub notes: Vec<Note>,
 }
 
 /// Calculates means from overrides of the gearbox.

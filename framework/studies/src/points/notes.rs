@@ -91,9 +91,31 @@ pub struct Stated {
     pub origin: &'static str,
 }
 
-/// Notes on all limits and observed quantities, on bearings with insufficient static safety, and on pairs with too weak a spring.
+/// Notes on all limits and observed quantities, on bearings with insufficient static safety, and on pairs with too weak a spring; none if
+/// nothing was observed.
 pub fn notes(transmission: &Transmission, seen: &[Extent]) -> Vec<Note> {
+    if seen.is_empty() {
+        return Vec::new();
+    }
     notes_of(transmission, seen, &|_| None)
+}
+
+/// Merges notes of several transmissions: those on the same quantity with the same range become one, without a share of the loss.
+pub fn merge_notes(total: &mut Vec<Note>, more: &[Note]) {
+    for note in more {
+        let is_same = |known: &&mut Note| {
+            (&known.path, known.name, known.unit, known.range) == (&note.path, note.name, note.unit, note.range)
+        };
+        if let Some(known) = total.iter_mut().find(is_same) {
+            known.least = known.least.min(note.least);
+            known.greatest = known.greatest.max(note.greatest);
+            known.points = known.points.saturating_add(note.points);
+            known.outside = known.outside.saturating_add(note.outside);
+            known.loss_share = None;
+        } else {
+            total.push(note.clone());
+        }
+    }
 }
 
 /// The notes with the share of the loss of each cell of a limit.

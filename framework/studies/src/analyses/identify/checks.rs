@@ -23,7 +23,7 @@ pub struct Checks {
     pub lack: Option<LackOfFit>,
     /// The scatter of repeated points compared with the remaining residuals.
     pub pure: Option<PureError>,
-    /// Whether the residuals are normally distributed.
+    /// Whether the residuals of the points are normally distributed.
     pub normality: Option<AndersonDarling>,
     /// Correlation of residuals along lines of neighbouring points.
     pub succession: Option<Succession>,
@@ -31,7 +31,7 @@ pub struct Checks {
     pub over_torque: Vec<BandMean>,
     /// The same over speed in rpm.
     pub over_speed: Vec<BandMean>,
-    /// Standardised residuals.
+    /// Standardised residuals of the points.
     pub standardised: Vec<f64>,
     /// Indices of outliers.
     pub outliers: Vec<usize>,
@@ -44,9 +44,8 @@ impl Checks {
         let inference = &fitted.inference;
         let measured = identification.measured();
         let observations = identification.observations();
-        let all = inference.standardised();
-        // Those of the means follow.
-        let standardised = all[..observations.len()].to_vec();
+        // Those of the means follow, in which zeros of ranges are no sample of a normal distribution.
+        let standardised = inference.standardised()[..observations.len()].to_vec();
         let of_points = |list: Vec<usize>| list.into_iter().filter(|i| *i < observations.len()).collect();
         let over = |quantity: &str, factor: f64| -> Vec<BandMean> {
             let value = |o: &Observation| factor * measured.value(&measured.rows[o.row], quantity).unwrap_or(0.0);
@@ -57,7 +56,7 @@ impl Checks {
             // Factors of the accuracies are chosen to match the sum.
             lack: inference.lack_of_fit().filter(|_| fitted.factors.is_empty()),
             pure: pure_error(inference, &repeated(identification)).filter(|_| !inference.is_robust()),
-            normality: anderson_darling(&all),
+            normality: anderson_darling(&standardised),
             succession: succession(&standardised, &of_residuals(identification, sheets)),
             over_torque: over("torque", 1.0),
             over_speed: over("speed", RPM),

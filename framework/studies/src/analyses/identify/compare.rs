@@ -91,8 +91,10 @@ fn model(o: &IdentificationOfSet, common: &[f64]) -> Option<FittedModel> {
             .map(|(residual, factor)| residual * factor)
             .collect()
     };
-    let residuals = in_common(inference.residuals());
+    let mut residuals = in_common(inference.residuals());
     let squares = residuals.iter().map(|r| r * r).sum();
+    // Means are no points of the set: they have no neighbours and no common errors.
+    residuals.truncate(o.found.observations.len());
     let folds = o.found.folds.as_ref().and_then(|folds| folds.as_ref().ok());
     let (points, parameters) = (inference.residuals().len(), inference.parameters().len());
     let lack = o.found.checks.lack.is_some_and(|lack| lack.widening().is_some());

@@ -75,6 +75,23 @@ pub struct IdentifyEntry {
     pub write: Vec<Write>,
 }
 
+impl IdentifyEntry {
+    /// A stated key that needs points; absent if there is none. What is stated as the default is not told from what is not stated.
+    pub(super) fn key_of_points(&self) -> Option<&'static str> {
+        let keys = [
+            ("bind", !self.bind.is_empty()),
+            ("residuals", self.residuals != residuals()),
+            ("hold_out", self.hold_out.is_some()),
+            ("folds", ![folds(), FoldsEntry::Torques(0)].contains(&self.folds)),
+            ("correction", self.correction.is_some()),
+            ("next", self.next.is_some()),
+            ("stack_at", self.stack_at.is_some()),
+            ("accuracy_factors", self.accuracy_factors),
+        ];
+        keys.into_iter().find(|(_, stated)| *stated).map(|(key, _)| key)
+    }
+}
+
 fn residuals() -> Vec<Quantity> {
     vec![Quantity::Efficiency]
 }

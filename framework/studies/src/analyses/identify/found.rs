@@ -17,7 +17,7 @@ use crate::identify::{
     Calculated, Fitted, HoldOut, Identification, Identified, Mean, Observation, Pair, Profiled, Settings, ShareBands,
 };
 use crate::measured::{Measured, Seen};
-use crate::points::{Note, merge, notes};
+use crate::points::{Note, merge, merge_notes, notes};
 use crate::study::{Difference, Quantity};
 
 /// Results for one model set, for tables and figures.
@@ -164,6 +164,8 @@ impl Found {
             merge(&mut seen, &there);
             held_out
         });
+        let mut outside = notes(transmission, &seen);
+        merge_notes(&mut outside, &means_after.notes);
         let correction = match &entry.correction {
             Some(wanted) => correction::fit(cx, wanted, identification.measured(), &after)?,
             None => Vec::new(),
@@ -172,12 +174,7 @@ impl Found {
             correction,
             posterior,
             held_out,
-            // Nothing is observed if all cycles are with other values of the gearbox.
-            outside: if seen.is_empty() {
-                Vec::new()
-            } else {
-                notes(transmission, &seen)
-            },
+            outside,
         };
         let mechanisms = shares.as_ref().map_or(&[][..], |shares| &shares.mechanisms);
         let found = Self {

@@ -18,7 +18,7 @@ use crate::analyses::shares::Shares;
 use crate::analyses::{Built, Planner, Stopped};
 use crate::codes;
 use crate::identify::{CalculatedMeans, Identified, Mean, Means};
-use crate::points::merge;
+use crate::points::{Note, merge, merge_notes, notes};
 use crate::study::{By, MeanEntry, RideEntry};
 
 /// All mechanisms together.
@@ -86,10 +86,14 @@ struct Simulation<'a> {
 struct Driven {
     /// Each mechanism with its mean loss. \[W\]
     losses: Vec<(String, f64)>,
+    /// Observed without other values of the gearbox.
     seen: Vec<Extent>,
+    /// Notes with other values: they may be other models, which observe other quantities.
+    notes: Vec<Note>,
 }
 
 /// A mean loss of a simulation by its number: of one mechanism, or of all.
+#[derive(PartialEq)]
 struct MeanLoss<'a> {
     simulation: usize,
     mechanism: &'a str,
@@ -119,9 +123,15 @@ impl Simulation<'_> {
         }
         // Cycles without time have no energy.
         let mean = |joule: f64| joule / time.max(f64::MIN_POSITIVE);
+        let (seen, notes) = if self.set.is_empty() {
+            (seen, Vec::new())
+        } else {
+            (Vec::new(), notes(&t, &seen))
+        };
         Ok(Driven {
             losses: shares.names.into_iter().zip(joules.into_iter().map(mean)).collect(),
             seen,
+            notes,
         })
     }
 }
@@ -160,23 +170,29 @@ pub(super) fn means<'a>(cx: &Planner<'a>, entry: &'a IdentifyEntry, built: &Buil
         let driven: Vec<Driven> = driven.collect::<Result<_, _>>()?;
         let loss = |of: &MeanLoss<'_>| driven[of.simulation].loss(of.mechanism);
         let value = |(of, over): &(MeanLoss<'_>, Option<MeanLoss<'_>>)| loss(of) / over.as_ref().map_or(1.0, loss);
-        let mut seen = Vec::new();
-        // Other values may be other models, which observe other quantities.
-        for (_, driven) in simulations
-            .iter()
-            .zip(&driven)
-            .filter(|(simulation, _)| simulation.set.is_empty())
-        {
+        let (mut seen, mut notes) = (Vec::new(), Vec::new());
+        for driven in &driven {
             merge(&mut seen, &driven.seen);
+            merge_notes(&mut notes, &driven.notes);
         }
         Ok(CalculatedMeans {
             values: losses.iter().map(value).collect(),
             seen,
+            notes,
         })
     }))
 }
 
-/// Refuses a parameter that changes what a mean states under `set`.
+/// Whether one of two paths is the other, or lies below it.
+fn overlap(one: &str, other: &str) -> bool {
+    let is_within = |path: &str, whole: &str| {
+        let rest = path.strip_prefix(whole);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    is_within(one, other) || is_within(other, one)
+}
+
+/// Refuses a parameter that changes what a mean states under `set`, or a part or the whole of it.
 pub(super) fn refuse_changed(
     cx: &Planner<'_>,
     entry: &IdentifyEntry,
@@ -193,7 +209,8 @@ pub(super) fn refuse_changed(
         for (set, key) in sets.into_iter().flatten() {
             for (pattern, _) in set.iter() {
                 let changed = gearloss_framework::resolve::matches(&built.resolved.value, pattern);
-                let both = |parameter: &&Identified| parameter.paths().iter().any(|path| changed.contains(path));
+                let is_set = |path: &String| changed.iter().any(|set| overlap(path, set));
+                let both = |parameter: &&Identified| parameter.paths().iter().any(is_set);
                 if let Some(parameter) = parameters.iter().find(both) {
                     let message = format!(
                         "`{pattern}` is also changed by the parameter `{}`",
@@ -282,7 +299,12 @@ impl<'a> Reader<'a, '_> {
                 ),
             )
         });
-        Ok((of, over.transpose()?))
+        let over = over.transpose()?;
+        if over.as_ref() == Some(&of) {
+            let help = "state another `drive`, `set` or `mechanism` there";
+            return Err(self.wrong(&format!("{path}.relative_to"), "a loss over itself is always 1", help));
+        }
+        Ok((of, over))
     }
 
     /// A mean loss; each of `drive`, `set` and `mechanism` with the place of the key.

@@ -90,7 +90,7 @@ pub struct Requested {
 pub struct IdentificationOfSet {
     /// Name of the set.
     pub model_set: String,
-    /// Whether the accuracies of the points are given or estimated from their scatter.
+    /// Whether the accuracies of points and means are given, or those of points estimated from their scatter.
     pub accuracy: AccuracyOfPoints,
     /// Notes on the points.
     pub notes: Vec<String>,
@@ -138,11 +138,11 @@ pub struct IdentificationOfSet {
     pub found: Found,
 }
 
-/// Origin of the accuracies of points.
+/// Origin of the accuracies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AccuracyOfPoints {
-    /// Stated in the data.
+    /// Stated, in the data or with the means.
     Given,
     /// The scatter of the points.
     Estimated,
@@ -153,11 +153,11 @@ pub enum AccuracyOfPoints {
 pub struct MisfitOfSet {
     /// Each fitted quantity.
     pub quantities: Vec<MisfitOfQuantity>,
-    /// Sum of the squared residuals, including those of priors. [-]
+    /// Sum of the squared residuals of points, means and priors. [-]
     pub objective: f64,
-    /// Sum of the squared residuals of the points. [-]
+    /// Sum of the squared residuals of points and means. [-]
     pub sum_of_squares: f64,
-    /// Degrees of freedom. [-]
+    /// Degrees of freedom, one for each point, mean and prior less one for each determined combination of parameters. [-]
     pub degrees_of_freedom: f64,
     /// Probability of a sum at least this large if model and accuracies are correct; absent without stated accuracies. [-]
     pub probability: Option<f64>,
@@ -187,7 +187,7 @@ pub struct MisfitOfQuantity {
 pub struct ChecksOfSet {
     /// Notes.
     pub sentences: Vec<String>,
-    /// Whether the residuals are normally distributed; absent for fewer than eight.
+    /// Whether the residuals of the points are normally distributed; absent for fewer than eight.
     pub anderson_darling: Option<NormalityOfResiduals>,
     /// Correlation of residuals along lines of neighbouring points.
     pub succession: Option<SuccessionOfResiduals>,
