@@ -230,7 +230,7 @@ fn a_map_that_does_not_cover_the_cycle_says_where_and_how_much() {
     close(&farthest["torque_beyond_nm"], 57.903_780_068_7 - 50.0);
     // The torque of the first interval is farther outside, by its power, than the speed of the second.
     close(&farthest["speed_beyond_rpm"], 0.0);
-    assert!(ran.text.contains("`machines.motor` is outside its map for 66.7 % of the time, farthest at 0 s with 57.9 Nm at 1432 rpm, 7.9 Nm above"), "{}", ran.text);
+    assert!(ran.text.contains("machine motor is outside its map for 66.7 % of the time, farthest at 0 s with 57.9 Nm at 1432 rpm, 7.9 Nm above"), "{}", ran.text);
 }
 
 /// All analyses over points have the quantities of the unit, and they are those of `solve`.
