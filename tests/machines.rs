@@ -230,7 +230,7 @@ fn a_map_that_does_not_cover_the_cycle_says_where_and_how_much() {
     close(&farthest["torque_beyond_nm"], 57.903_780_068_7 - 50.0);
     // The torque of the first interval is farther outside, by its power, than the speed of the second.
     close(&farthest["speed_beyond_rpm"], 0.0);
-    assert!(ran.text.contains("`machines.motor` is outside its map for 66.7 % of the time, farthest at 0 s with 57.9 Nm at 1432 rpm, 7.9 Nm above"), "{}", ran.text);
+    assert!(ran.text.contains("machine motor is outside its map for 66.7 % of the time, farthest at 0 s with 57.9 Nm at 1432 rpm, 7.9 Nm above"), "{}", ran.text);
 }
 
 /// All analyses over points have the quantities of the unit, and they are those of `solve`.
@@ -626,8 +626,8 @@ fn the_node_of_an_inverter_must_exist() {
     );
 }
 
-/// `check` compares what points ask of a machine with its map and its envelope: at the port of the torque, through the gears without their
-/// losses, and in the gear that is chosen.
+/// `check` compares what points demand of a machine with its map and its envelope: at the port of the torque, and through the gears without
+/// their losses.
 #[test]
 fn points_beyond_a_map_or_an_envelope_are_found_before_anything_is_solved() {
     let found = |conditions: &str, grid: &str, machine: &str, analysis: &str| {
@@ -694,6 +694,69 @@ analyses: {{ m: {{ {analysis}, grid: g }} }}
     // A machine that turns with its inverter off needs no map.
     let idle = ", idle: \"off\", freewheel: [{ speed: 0 rpm, loss: 0 W }, { speed: 9000 rpm, loss: 90 W }]";
     assert_eq!(found("", "torque: [0 Nm], speed: [6000 rpm]", idle, map), "");
+}
+
+/// Model sets are solved at the same points, which count once.
+#[test]
+fn points_beyond_a_map_count_once_for_all_model_sets() {
+    let study = "gearloss: study/1
+gearboxes: { box: box.yaml }
+conditions: { oil_temperature: 60 degC }
+model_sets: { a: { set: { meshes.stage.loss_factor: 1 } }, b: { set: { meshes.stage.loss_factor: 2 } } }
+grids: { g: { torque: [50 Nm, 100 Nm, 130 Nm], speed: [3000 rpm, 5000 rpm, 6000 rpm] } }
+analyses: { m: { type: map, model_sets: [a, b], grid: g } }
+";
+    let gearbox = format!("{STAGE}\nmachines: {{ motor: {{ map: map.csv, contains: [inverter] }} }}\n");
+    let found = check_texts(study, &[("box.yaml", &gearbox), ("map.csv", &synthetic())]);
+    assert!(found.contains("is outside its map at 5 points"), "{found}");
+    assert_eq!(found.matches("W0543").count(), 1, "{found}");
+}
+
+/// A belt with the ratios 4 and 1 to the same output.
+const TWO_SPEEDS: &str = "
+gearloss: gearbox/1
+ports: { input: a, output: b }
+shafts:
+  a: { axis: [0 mm, 0 mm], bearings: none }
+  b: { axis: [170 mm, 0 mm], bearings: none }
+chains:
+  belt:
+    kind: variable_belt
+    wheels: [{ shaft: a }, { shaft: b }]
+    ratio: 1
+    ratios: { low: 4, high: 1 }
+    model: { type: formula, formula: \"50 + 0.002 * torque * abs(speed)\" }
+gear_states: { low: [], high: [] }
+lubricants: { oil: { viscosity: { kv40: 46 mm2/s, kv100: 8 mm2/s } } }
+machines: { motor: { map: map.csv, contains: [inverter] } }
+";
+
+/// Where a gear is chosen at each point, the point is beyond the map if it is in every gear.
+#[test]
+fn a_point_is_beyond_a_map_if_it_is_in_every_gear() {
+    let found = |gear: &str, torque: &str, speed: &str| {
+        let study = format!(
+            "gearloss: study/1
+gearboxes: {{ box: box.yaml }}
+conditions: {{ oil_temperature: 60 degC, torque_at: output, speed_at: output }}
+grids: {{ g: {{ gear: {gear}, torque: [{torque}], speed: [{speed}] }} }}
+analyses: {{ m: {{ type: map, grid: g }} }}
+"
+        );
+        check_texts(&study, &[("box.yaml", TWO_SPEEDS), ("map.csv", &synthetic())])
+    };
+    // 200 Nm are too much in the high gear, 2000 rpm too fast in the low one.
+    for (torque, speed, beyond) in [("-200 Nm", "500 rpm", "high"), ("-40 Nm", "2000 rpm", "low")] {
+        let alone = found(beyond, torque, speed);
+        assert!(alone.contains("is outside its map at 1 point"), "{alone}");
+        let best = found("best", torque, speed);
+        assert!(!best.contains("outside its map"), "{best}");
+    }
+    // In the low gear 125 Nm at 2000 rpm, in the high one 500 Nm at 500 rpm.
+    let both = found("best", "-500 Nm", "500 rpm");
+    let says = "`machines.motor` is outside its map at 1 point, farthest with 125.0 Nm at 2000 rpm, 25.0 Nm above its largest torque there";
+    assert!(both.contains(says), "{both}");
+    assert_eq!(both.matches("W0543").count(), 1, "{both}");
 }
 
 /// Where the oil reaches a temperature the unit is known as well.

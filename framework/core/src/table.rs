@@ -273,8 +273,9 @@ impl Table {
                 .flatten()
                 .max()
                 .map_or(cells.header_line.max(1), |row| rows[*row].1);
+            let are = if missing == 1 { "is" } else { "are" };
             return Err(format!(
-                "line {after}: the next point, {}, is missing; {missing} of {count} points are missing in all",
+                "line {after}: the next point, {}, is missing; {missing} of {count} points {are} missing in all",
                 named(&grid, place)
             ));
         }

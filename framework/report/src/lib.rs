@@ -10,6 +10,7 @@ pub mod codes;
 pub mod eval;
 pub mod html;
 pub mod limits;
+mod machines;
 mod model_error;
 pub mod models;
 mod names;

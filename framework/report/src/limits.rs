@@ -23,7 +23,7 @@ pub fn add(limits: &[LimitReached], page: &mut Page) {
         table.row(vec![
             limit.limit.clone(),
             limit.model_set.clone(),
-            limit.quantity.clone(),
+            of_component(&limit.quantity),
             bounds(limit),
             limit.worst.map_or_else(
                 || "unknown".to_owned(),

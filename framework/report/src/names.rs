@@ -68,6 +68,14 @@ const QUANTITIES: [[&str; 2]; 20] = [
     ["viscosity.vi", "viscosity index of the oil"],
 ];
 
+/// Lists that are vectors: their key, their name, and their components.
+const VECTORS: [[&str; 3]; 4] = [
+    ["axis", "axis", "yz"],
+    ["direction", "direction", "xyz"],
+    ["force", "force", "xyz"],
+    ["through", "point", "xyz"],
+];
+
 /// Cycles that are known by capital letters.
 const CYCLES: [&str; 7] = ["ftp75", "hwfet", "nedc", "nycc", "udds", "us06", "wltc"];
 
@@ -113,7 +121,7 @@ pub fn of_component(quantity: &str) -> String {
 }
 
 /// The end of a path in words. Values and entries of a list have the name of the list and their number, from one: `pins.errors.0` is `error 1 of
-/// the pins`, `sections.1.outer` is `outer of section 2`.
+/// the pins`, `sections.1.outer` is `outer of section 2`; those of a vector are its components: `axis.0` is `y of the axis`.
 fn end(path: &str) -> String {
     let number = |key: &str| key.parse::<usize>().ok().map(|number| number + 1);
     let Some((before, last)) = path.rsplit_once('.') else {
@@ -124,12 +132,19 @@ fn end(path: &str) -> String {
         return listed.unwrap_or_else(|| spaced(last));
     };
     let (around, list) = before.rsplit_once('.').unwrap_or(("", before));
-    let value = format!("{} {count}", singular(list));
+    let value = component(list, count).unwrap_or_else(|| format!("{} {count}", singular(list)));
     match around {
         "" => value,
         _ if number(last_key(around)).is_some() => format!("{value} of {}", end(around)),
         _ => format!("{value} of the {}", spaced(last_key(around))),
     }
+}
+
+/// A component of a vector by its number from one: the second of `axis` is `z of the axis`. Absent for other lists.
+fn component(list: &str, number: usize) -> Option<String> {
+    let [_, name, letters] = VECTORS.iter().find(|[key, ..]| *key == list)?;
+    let letter = letters.chars().nth(number.checked_sub(1)?)?;
+    Some(format!("{letter} of the {name}"))
 }
 
 /// One of what the key of a list names: `errors` is `error`.
@@ -139,6 +154,9 @@ fn singular(key: &str) -> String {
     let cut = |letters: usize| words[..words.len() - letters].to_owned();
     if ends(&["ies"]) {
         return cut(3) + "y";
+    }
+    if ends(&["axes"]) {
+        return cut(2) + "is";
     }
     if ends(&["xes", "ches", "shes"]) {
         return cut(2);
@@ -212,7 +230,7 @@ pub fn listed(words: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{SetNames, cycle, listed, model, of_component, quantity, share};
+    use super::{SetNames, cycle, listed, model, of_component, quantity, share, singular};
 
     #[test]
     fn paths_are_words_of_the_field() {
@@ -230,11 +248,19 @@ mod tests {
             quantity("shafts.*.sections.1.outer"),
             "outer of section 2 of the shafts"
         );
-        assert_eq!(quantity("shafts.S1.axis.0"), "axis 1 of shaft S1");
-        assert_eq!(quantity("shafts.S1.loads.0.force.2"), "force 3 of load 1 of shaft S1");
+        assert_eq!(quantity("shafts.S1.axis.0"), "y of the axis of shaft S1");
         assert_eq!(
-            quantity("housing.inside.boxes.1.from.0"),
-            "from 1 of box 2 of the inside"
+            quantity("shafts.S1.axis.through.0"),
+            "x of the point of the axis of shaft S1"
+        );
+        assert_eq!(
+            quantity("shafts.S1.loads.0.force.2"),
+            "z of the force of load 1 of shaft S1"
+        );
+        assert_eq!(quantity("shafts.S1.loads.0.moment.1"), "moment 2 of load 1 of shaft S1");
+        assert_eq!(
+            ["axes", "boxes", "viscosities"].map(singular),
+            ["axis", "box", "viscosity"]
         );
         assert_eq!(model("meshes.M1.model.tooth_friction"), "tooth friction of mesh M1");
         assert_eq!(model("gears.G4.drag.churning.model"), "churning of gear G4");

@@ -319,8 +319,9 @@ impl Group {
         let share = all.loss_share().map_or_else(String::new, |share| {
             format!(", with {} % of the loss", short(100.0 * share))
         });
-        // What is small beside the largest value is zero for a reader.
-        let least = if all.least.abs() < 1e-3 * all.greatest.abs() {
+        // What is small beside the largest value is zero for a reader, unless it is itself outside.
+        let is_inside = all.least >= all.ends[0];
+        let least = if is_inside && all.least.abs() < 1e-3 * all.greatest.abs() {
             0.0
         } else {
             all.least
@@ -395,6 +396,12 @@ mod tests {
         assert!(
             ranges.worst()[0].contains("n_dm (0 to 9)"),
             "small beside the largest value"
+        );
+        let mut ranges = StatedRanges::default();
+        ranges.add(left("bearings.B1.model", -1e-3, "map"));
+        assert!(
+            ranges.worst()[0].contains("n_dm (-0.001 to 9) is outside the stated range"),
+            "small, but below the range"
         );
     }
 }

@@ -21,7 +21,7 @@ pub mod head;
 pub mod identify;
 pub mod inputs;
 pub mod limits;
-mod machines_asked;
+mod machine_demand;
 pub mod map;
 pub mod measurable;
 pub mod model_error;

@@ -20,7 +20,7 @@ use gearloss_framework::resolve::{Choice, Resolved};
 use gearloss_framework::sump::LEAST_SPLASH;
 use gearloss_framework::transmission::Transmission;
 
-use crate::analyses::numbers::{RPM, significant};
+use crate::analyses::numbers::{RPM, figures, significant};
 use crate::points::{Note, STATIC_SAFETY, WeakPoint, evidence, merge, notes};
 use crate::ratings::{RatedQuantity, rated};
 
@@ -243,8 +243,8 @@ fn above_the_oil(checked: &CheckedGearbox) -> Vec<Diagnostic> {
         let message = format!(
             "no oil reaches the bearing at the rated speed: the level is {} mm, and the fastest gear in the oil has {} m/s of the {LEAST_SPLASH} m/s \
              from which gears splash",
-            significant(level * 1e3),
-            significant(rim)
+            figures(level * 1e3, 4),
+            figures(rim, 4)
         );
         Diagnostic::warning(path, message)
             .help("raise the level, or state `oil_height` if the bearing gets its oil in another way")
@@ -280,7 +280,7 @@ fn unfed_bearings(checked: &CheckedGearbox) -> Vec<Diagnostic> {
             }
         }
     });
-    let level = level.map_or_else(String::new, |level| format!(" at {} mm", significant(level * 1e3)));
+    let level = level.map_or_else(String::new, |level| format!(" at {} mm", figures(level * 1e3, 4)));
     let dry = asked.into_iter().filter(|(path, inflow)| {
         // Without a rated speed nothing is known of the flow into a pocket.
         *inflow == 0.0 && (t.rating.is_some() || entry(path)["pocket"].is_null())

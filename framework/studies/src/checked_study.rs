@@ -18,7 +18,7 @@ pub struct CheckedStudy {
     pub refused: Vec<Stopped>,
     /// What each analysis computes, by its name; nothing of those that are refused.
     pub plans: Vec<(String, Vec<Work>)>,
-    /// Warnings of its gearboxes, and of its analyses about what their points ask of machines.
+    /// Warnings of its gearboxes, and of its analyses about what their points demand of machines.
     pub warnings: Vec<Findings>,
     /// Components of its gearboxes without a model, and coefficients that differ from their source.
     pub notes: Vec<String>,
@@ -45,7 +45,7 @@ impl CheckedStudy {
         let run = StudyRun::new(language, study);
         let mut reported = Reported::default();
         let mut refused: Vec<Stopped> = Vec::new();
-        let (mut plans, mut asked) = (Vec::new(), Vec::<Findings>::new());
+        let (mut plans, mut demand) = (Vec::new(), Vec::<Findings>::new());
         if let Some(findings) = study.data_findings() {
             reported.add(&findings);
             refused.push(findings.into());
@@ -56,17 +56,17 @@ impl CheckedStudy {
                 break;
             }
             let shortened = run.study_for_analysis();
-            let planner = Planner::new(language, &shortened, name).looking_at_machines();
+            let planner = Planner::new(language, &shortened, name).with_machine_demand();
             let stopped = match run.plan(&planner) {
                 Ok(work) => {
                     plans.push((name.to_owned(), work));
-                    // Analyses of one grid ask the same: the first says it.
+                    // Analyses of one grid demand the same: the first says it.
                     if let Some(mut warnings) = planner.warnings() {
-                        let known = asked.iter().flat_map(|findings| &findings.list);
+                        let known = demand.iter().flat_map(|findings| &findings.list);
                         warnings
                             .list
                             .retain(|warning| known.clone().all(|other| other.message != warning.message));
-                        asked.push(warnings);
+                        demand.push(warnings);
                     }
                     continue;
                 }
@@ -81,7 +81,7 @@ impl CheckedStudy {
             }
         }
         let Cautions { mut warnings, notes } = study.cautions(language);
-        warnings.extend(asked);
+        warnings.extend(demand);
         Self {
             refused,
             plans,

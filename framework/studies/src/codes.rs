@@ -73,7 +73,7 @@ gearloss_framework::document::codes! {
     CORRECTION = "E0610", "invalid correction",
         cause: "An identification cannot make a correction from its rows, or a correction that another analysis reads is missing, damaged, or belongs to another gearbox or other parameters.",
         help: "Give rows with a measured loss; run the identification again, and use the model set that it provides under `then`.";
-    MACHINE_ASKED = "W0543", "points beyond the map or the envelope of a machine",
+    MACHINE_DEMAND = "W0543", "points beyond the map or the envelope of a machine",
         cause: "An analysis solves points whose torque or speed is beyond what the loss map of a machine covers, or beyond its envelope.",
         help: "Extend the map, correct the envelope, or state other points. The loss at the edge of the map is used, and points are not limited.";
 }

@@ -12,6 +12,7 @@ use gearloss_studies::duty::Consumption;
 
 use crate::Figure;
 use crate::exports;
+use crate::machines::cautions_of_cycle;
 use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
@@ -113,7 +114,7 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
     for text in duty
         .machines
         .iter()
-        .flat_map(|machine| machine.cautions(duty.duration_s))
+        .flat_map(|machine| cautions_of_cycle(machine, duty.duration_s))
     {
         page.line(format!("  note: {text}"));
     }

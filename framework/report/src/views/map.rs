@@ -8,10 +8,10 @@ mod summary;
 use gearloss_studies::analyses::cycle::Criterion;
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownGrid, ShownPoint};
 use gearloss_studies::analyses::numbers::{RPM, tidy};
-use gearloss_studies::analyses::outside_maps::MachineOutside;
 use gearloss_studies::points::OilTemperature;
 
 use crate::exports;
+use crate::machines;
 use crate::page::Page;
 use crate::register_view;
 use crate::text::{TextTable, fixed, number, short, spread, words_of_set};
@@ -44,7 +44,7 @@ fn outside_maps(outcome: &MapOutcome, page: &mut Page) {
     let mut cautions: Vec<(String, Vec<String>)> = Vec::new();
     for map in &outcome.maps {
         let at = format!("gear {}, {}", map.gear, words_of_set(&map.model_set));
-        for text in map.outside_maps.iter().map(MachineOutside::caution) {
+        for text in map.outside_maps.iter().map(machines::outside_map) {
             match cautions.iter_mut().find(|(known, _)| *known == text) {
                 Some((_, places)) => places.push(at.clone()),
                 None => cautions.push((text, vec![at.clone()])),
@@ -74,7 +74,8 @@ fn show_map(name: &str, map: &MapOfSet, page: &mut Page) {
     if let Some(best) = &map.best_gears {
         let parts = best.gears.iter().map(|gear| {
             let share = short(100.0 * gear.share);
-            format!("{} at {} points ({share} %)", gear.gear, gear.points)
+            let points = if gear.points == 1 { "point" } else { "points" };
+            format!("{} at {} {points} ({share} %)", gear.gear, gear.points)
         });
         let compared = match best.criterion {
             Criterion::MachinePower => "the power of the machine",

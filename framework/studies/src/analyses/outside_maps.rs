@@ -81,19 +81,11 @@ impl MachineOutside {
     }
 
     /// How far it is outside, by the power that the excess has.
-    pub(super) fn size(&self) -> f64 {
+    pub fn size(&self) -> f64 {
         self.torque_beyond_nm * self.speed_rpm.abs() + self.speed_beyond_rpm * self.torque_nm.abs()
     }
 
-    /// What a reader has to be careful about.
-    pub fn caution(&self) -> String {
-        format!(
-            "{}; the loss at the edge of the map is used",
-            self.words("outside its map")
-        )
-    }
-
-    /// Where it is beyond something, and how far.
+    /// Where it is beyond something, and how far, for a finding.
     pub(super) fn words(&self, beyond: &str) -> String {
         let place = if self.size() > 0.0 {
             let excess = beyond_words(self.torque_beyond_nm, self.speed_beyond_rpm);
@@ -110,7 +102,7 @@ impl MachineOutside {
 }
 
 /// Torque (Nm) and speed (rpm) beyond a map, as the end of a sentence.
-pub fn beyond_words(torque: f64, speed: f64) -> String {
+fn beyond_words(torque: f64, speed: f64) -> String {
     let mut words = String::new();
     if torque > 0.0 {
         words.push_str(&format!(", {torque:.1} Nm above its largest torque there"));

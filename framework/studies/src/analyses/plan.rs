@@ -127,11 +127,11 @@ impl<'a> Run<'a> {
     /// Points that do not fit, and wrong limits of the study.
     pub fn new(cx: &Planner<'_>, built: &Arc<Built<'a>>, points: Points) -> Result<Self, Stopped> {
         let run = Self::of_gear(cx, built, points)?;
-        cx.look_at_machines(&built.transmission, &[&run.points]);
+        cx.add_machine_demand(built, &[&run.points]);
         Ok(run)
     }
 
-    /// The same in one of several gears, of which one is chosen at each point: who chooses looks at what they ask of machines.
+    /// The same in one of several gears, of which one is chosen at each point: who chooses adds what they demand of machines.
     ///
     /// # Errors
     /// As [`Run::new`].

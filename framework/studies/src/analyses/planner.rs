@@ -14,7 +14,7 @@ use super::head::{Head, InputFile};
 use super::identify::IdentifyEntry;
 use super::limits::Scope;
 use super::limits::at_points::Watch;
-use super::machines_asked::MachinesAsked;
+use super::machine_demand::MachineDemand;
 use super::model_error::{ModelError, ModelErrorOfSet, weigh};
 use super::stopped::Stopped;
 use crate::codes;
@@ -67,8 +67,8 @@ pub struct Planner<'a> {
     pub name: &'a str,
     /// Its own lock, because files are also read in parallel.
     record: Mutex<Record>,
-    /// What points ask of machines; absent where nothing looks at it.
-    machines_asked: Option<Mutex<MachinesAsked>>,
+    /// What points demand of machines; absent where nothing reads it.
+    machine_demand: Option<Mutex<MachineDemand>>,
 }
 
 impl<'a> Planner<'a> {
@@ -79,29 +79,29 @@ impl<'a> Planner<'a> {
             study,
             name,
             record: Mutex::default(),
-            machines_asked: None,
+            machine_demand: None,
         }
     }
 
-    /// The same, which also looks at what the points ask of machines, for [`Planner::warnings`].
-    pub fn looking_at_machines(self) -> Self {
+    /// The same, which also finds what the points demand of machines, for [`Planner::warnings`].
+    pub fn with_machine_demand(self) -> Self {
         Self {
-            machines_asked: Some(Mutex::default()),
+            machine_demand: Some(Mutex::default()),
             ..self
         }
     }
 
-    /// Looks at points in a gear, or in the best one of several gears.
-    pub(super) fn look_at_machines(&self, t: &Transmission, gears: &[&Points]) {
-        if let Some(asked) = &self.machines_asked {
-            asked.lock().unwrap_or_else(PoisonError::into_inner).add(t, gears);
+    /// Adds what points in a gear, or in the best one of several gears, demand of machines.
+    pub(super) fn add_machine_demand(&self, built: &Built<'_>, gears: &[&Points]) {
+        if let Some(demand) = &self.machine_demand {
+            demand.lock().unwrap_or_else(PoisonError::into_inner).add(built, gears);
         }
     }
 
     /// Warnings about the points that were planned; absent without any.
     pub fn warnings(&self) -> Option<Findings> {
-        let asked = self.machines_asked.as_ref()?;
-        let list = asked
+        let demand = self.machine_demand.as_ref()?;
+        let list = demand
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .warnings(&self.path());

@@ -2,6 +2,7 @@
 
 use gearloss_studies::analyses::cycle::{CycleOutcome, DutyOfSet};
 
+use crate::machines::cautions_of_cycle;
 use crate::names::{SetNames, cycle, share};
 use crate::page::Page;
 use crate::text::{figures, in_brackets, short};
@@ -83,7 +84,7 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
             let lacking = consumption.lacking_kwh_per_100_km + consumption.shortfall_kwh_per_100_km;
             if lacking > 0.0 {
                 page.careful.push(format!(
-                    "{of}: the vehicle cannot follow the cycle; {} kWh/100 km that it lacks are not in its consumption of {}",
+                    "{of}: the vehicle cannot follow the cycle: it lacks {} kWh/100 km, which its consumption of {} kWh/100 km does not contain",
                     short(lacking),
                     figures(consumption.consumption_kwh_per_100_km, 4)
                 ));
@@ -92,7 +93,7 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
         let cautions = duty
             .machines
             .iter()
-            .flat_map(|machine| machine.cautions(duty.duration_s));
+            .flat_map(|machine| cautions_of_cycle(machine, duty.duration_s));
         let cautions: Vec<String> = cautions.map(|text| format!("{of}: {text}")).collect();
         page.careful.extend(cautions);
     }

@@ -58,6 +58,8 @@ pub(super) fn summary(o: &IdentificationOfSet) -> Option<String> {
     let count = o.means.len();
     match (count, beyond.len()) {
         (0, _) => None,
+        (1, 0) => Some("the mean within twice its accuracy".to_owned()),
+        (1, _) => Some(format!("the mean {} not within twice its accuracy", listed(&beyond))),
         (_, 0) => Some(format!("all {count} means within twice their accuracy")),
         (_, out) => Some(format!(
             "{} of {count} means within twice their accuracy, not {}",

@@ -79,7 +79,10 @@ fn sentence(o: &IdentificationOfSet, after_misfit: bool, page: &mut Page) -> Str
             &format!("means that agree, {}", words_of_set(set)),
             agree.to_string(),
             "",
-            format!("of {count}, within twice their accuracy"),
+            format!(
+                "of {count}, within twice {} accuracy",
+                if count == 1 { "its" } else { "their" }
+            ),
         );
     }
     if let Some(prediction) = held_out(o, page) {

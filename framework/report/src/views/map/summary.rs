@@ -80,12 +80,14 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
     }
     let missing = points().filter(|(_, point)| point.loss.is_none()).count();
     if missing > 0 {
-        page.careful.push(format!(
-            "{missing} points of the maps have no power flow or no defined loss"
-        ));
+        let points = if missing == 1 { "point has" } else { "points have" };
+        page.careful
+            .push(format!("{missing} drawn {points} no power flow or no defined loss"));
     }
     words.extend(standstill(outcome));
-    words.extend(outcome.maps.iter().find_map(best_gears));
+    // Of several maps each states its own in the text.
+    let mut gears = outcome.maps.iter().filter_map(best_gears);
+    words.extend(gears.next().filter(|_| gears.next().is_none()));
     let count = match sets.len() {
         1 => String::new(),
         sets => format!("With {sets} model sets "),
@@ -93,19 +95,19 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
     page.headline = (!words.is_empty()).then(|| capitalised(&format!("{count}{}", words.join("; "))));
 }
 
-/// The speed up to which no point has a power flow, while all faster ones have: a drive that locks itself.
+/// The speed up to which no drawn point has a loss, while all faster ones have, as of a drive that locks itself.
 fn standstill(outcome: &MapOutcome) -> Option<String> {
     let points = || outcome.maps.iter().flat_map(|map| &map.shown.points);
-    let speeds = |moves: bool| {
+    let speeds = |has_loss: bool| {
         points()
-            .filter(move |point| point.loss.is_some() == moves)
+            .filter(move |point| point.loss.is_some() == has_loss)
             .map(|point| point.speed.abs())
     };
     let fastest = speeds(false).reduce(f64::max)?;
     let slowest = speeds(true).reduce(f64::min)?;
     (fastest < slowest).then(|| {
         format!(
-            "up to {} rpm no point has a power flow, from {} rpm on every point",
+            "up to {} rpm no drawn point has a loss, from {} rpm on every one has",
             short(fastest * RPM),
             short(slowest * RPM)
         )
@@ -119,5 +121,5 @@ fn best_gears(map: &MapOfSet) -> Option<String> {
     let used = gears.iter().filter(|gear| gear.points > 0).take(GEARS);
     let words = used.map(|gear| format!("{} at {} %", gear.gear, short(100.0 * gear.share)));
     let words = listed(&words.collect::<Vec<_>>());
-    Some(format!("the gear that draws least is {words} of the points"))
+    Some(format!("least is drawn in gear {words} of the points"))
 }

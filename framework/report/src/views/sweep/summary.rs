@@ -84,10 +84,8 @@ fn cards(
         let values = best.points.iter().filter_map(read);
         values.max_by(|a, b| (sign * a).total_cmp(&(sign * b)))
     };
-    let oils = outcome.sweep.iter().flat_map(|value| &value.points);
-    let oils = extremes(oils.filter_map(|point| Some((point.oil_temperature_degc?, ()))));
-    // A given temperature is no result.
-    let is_result = oils.is_some_and(|[low, high]| low.0 < high.0);
+    // A given temperature has no balance, and is no result.
+    let is_result = best.points.iter().any(|point| point.balance.is_some());
     if let (true, Some(oil)) = (is_result, largest(&|point| point.oil_temperature_degc, 1.0)) {
         page.key_figure(&label("oil temperature"), short(oil), "°C", at.as_str());
     }

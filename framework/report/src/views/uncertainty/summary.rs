@@ -1,4 +1,4 @@
-//! The width of the bands and the strongest input, in one sentence.
+//! The width of the bands, and the input with the strongest correlation.
 
 use gearloss_studies::analyses::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{PointOfBand, UncertaintyOutcome};
@@ -8,7 +8,7 @@ use crate::page::Page;
 use crate::text::{extremes, label_of_set, of_set, place, range, short};
 
 pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
-    let mut words = Vec::new();
+    let (mut words, mut correlations) = (Vec::new(), Vec::new());
     for set in &outcome.bands {
         let label = |name: &str| label_of_set(name, &set.model_set, outcome.bands.len());
         let half = |value: fn(&PointOfBand) -> Option<f64>| {
@@ -40,19 +40,11 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
         }
         let strongest = set.inputs.first();
         if let Some((input, strength)) = strongest.and_then(|i| Some((i, i.correlation_with_mean_loss?))) {
-            // Samples of independent quantities correlate within this with 95 % confidence.
-            let chance = 2.0 / (set.samples as f64).sqrt();
-            if strength.abs() > chance {
-                let name = quantity(&input.path);
-                found.push(format!("the {name} contributes most"));
-                let detail = format!("correlation {} with the mean loss", short(strength));
-                page.key_figure(&label("strongest input"), name.as_str(), "", detail);
-            } else {
-                found.push(format!(
-                    "no input correlates with the mean loss by more than chance ({})",
-                    short(chance)
-                ));
-            }
+            let (name, strength) = (quantity(&input.path), short(strength));
+            let of = of_set(&set.model_set, outcome.bands.len());
+            correlations.push(format!("{strength} ({name}) {of}").trim_end().to_owned());
+            let detail = format!("of the mean loss with the {name}");
+            page.key_figure(&label("strongest correlation"), strength, "", detail);
         }
         if set.failed > 0 {
             page.careful
@@ -62,5 +54,13 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             words.push(of_set(&set.model_set, outcome.bands.len()) + &found.join(", "));
         }
     }
-    page.headline = (!words.is_empty()).then(|| format!("With 95 % confidence: {}", words.join("; ")));
+    let bands = (!words.is_empty()).then(|| format!("With 95 % confidence: {}", words.join("; ")));
+    let correlations = (!correlations.is_empty()).then(|| {
+        format!(
+            "The strongest correlation of an input with the mean loss is {}",
+            correlations.join(", ")
+        )
+    });
+    let sentences: Vec<String> = [bands, correlations].into_iter().flatten().collect();
+    page.headline = (!sentences.is_empty()).then(|| sentences.join(". "));
 }

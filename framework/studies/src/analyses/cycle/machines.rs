@@ -6,7 +6,6 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::analyses::numbers::{RPM, tidy};
-use crate::analyses::outside_maps::beyond_words;
 use crate::points::{Driven, Stretch};
 
 /// A machine over a cycle.
@@ -100,39 +99,5 @@ impl MachineOfDuty {
             beyond_peak_time: count,
             beyond_envelope_s: sum(|energy| energy.beyond),
         }
-    }
-
-    /// What a reader has to be careful about, in sentences.
-    pub fn cautions(&self, duration: f64) -> Vec<String> {
-        let mut all = Vec::new();
-        let path = &self.machine;
-        if self.outside_map_s > 0.0 {
-            let share = 100.0 * self.outside_map_s / duration.max(f64::MIN_POSITIVE);
-            let mut text = format!("`{path}` is outside its map for {share:.1} % of the time");
-            if let Some(at) = &self.farthest {
-                text.push_str(&format!(
-                    ", farthest at {} s with {:.1} Nm at {:.0} rpm",
-                    tidy(at.time_s),
-                    at.torque_nm,
-                    at.speed_rpm
-                ));
-                text.push_str(&beyond_words(at.torque_beyond_nm, at.speed_beyond_rpm));
-            }
-            text.push_str("; the loss at the edge of the map is used");
-            all.push(text);
-        }
-        if self.beyond_envelope_s > 0.0 {
-            all.push(format!(
-                "`{path}` is above its envelope for {:.1} s",
-                self.beyond_envelope_s
-            ));
-        }
-        if self.beyond_peak_time > 0 {
-            all.push(format!(
-                "`{path}` is above its continuous torque longer than it may be {} times, at most {:.1} s",
-                self.beyond_peak_time, self.longest_above_continuous_s
-            ));
-        }
-        all
     }
 }

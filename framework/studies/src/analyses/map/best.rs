@@ -64,7 +64,7 @@ pub fn runs<'a>(cx: &Planner<'a>, path: &str, built: &Arc<Built<'a>>, field: &Fi
         return Err(cx.found(vec![error.help(help).code(codes::GEAR_CHOICE)]));
     }
     let points: Vec<&Points> = runs.iter().map(|run| &run.points).collect();
-    cx.look_at_machines(t, &points);
+    cx.add_machine_demand(built, &points);
     Ok(runs)
 }
 

@@ -1,21 +1,32 @@
-//! What the points of an analysis ask of machines beyond their loss maps and envelopes, found without solving any point.
+//! What the points of an analysis demand of machines beyond their loss maps and envelopes, found without solving any point.
+
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
 
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::machine::{Machine, Reached};
 use gearloss_framework::transmission::{Case, Transmission};
 
+use super::Built;
 use super::outside_maps::MachineOutside;
 use crate::codes;
 use crate::points::{Given, OilTemperature, Points};
 
 /// Points beyond the maps and the envelopes of machines.
 #[derive(Debug, Default)]
-pub(super) struct MachinesAsked {
-    outside_map: Vec<MachineOutside>,
-    beyond_envelope: Vec<MachineOutside>,
+pub(super) struct MachineDemand {
+    /// By model set, because several sets are solved at the same points.
+    by_set: BTreeMap<String, Beyond>,
     /// Machines whose torque is not given: paths.
     lossless: Vec<String>,
+}
+
+/// The same with one model set.
+#[derive(Debug, Default)]
+struct Beyond {
+    outside_map: Vec<MachineOutside>,
+    envelope: Vec<MachineOutside>,
 }
 
 /// A machine with its speed over that of the points, and its torque over theirs.
@@ -25,25 +36,23 @@ struct Seat<'t> {
     torque: f64,
 }
 
-impl MachinesAsked {
+impl MachineDemand {
     /// Adds points that are solved in a gear, or in the one of several gears that is chosen at each point: such a point is beyond if it
     /// is in all of them, and counts as that of the gear in which it is least.
-    pub fn add(&mut self, t: &Transmission, gears: &[&Points]) {
+    pub fn add(&mut self, built: &Built<'_>, gears: &[&Points]) {
+        let t = &built.transmission;
         let Some(first) = gears.first() else { return };
         if t.active_machines(first.oil == OilTemperature::Network).next().is_none() {
             return;
         }
         let seats: Vec<Vec<Seat<'_>>> = gears.iter().map(|points| self.seats(t, points)).collect();
+        let beyond = self.by_set.entry(built.name.clone()).or_default();
         for i in 0..first.field.len() {
             let given = first.field.given_point(i);
-            let all = seats.iter().map(|seats| Self::at(seats, given));
-            let size = |one: &Self| -> f64 {
-                let places = one.outside_map.iter().chain(&one.beyond_envelope);
-                places.map(MachineOutside::size).sum()
-            };
-            if let Some(least) = all.min_by(|a, b| size(a).total_cmp(&size(b))) {
-                MachineOutside::merge(&mut self.outside_map, least.outside_map);
-                MachineOutside::merge(&mut self.beyond_envelope, least.beyond_envelope);
+            let all = seats.iter().map(|seats| Beyond::at(seats, given));
+            if let Some(least) = all.min_by(Beyond::compare) {
+                MachineOutside::merge(&mut beyond.outside_map, least.outside_map);
+                MachineOutside::merge(&mut beyond.envelope, least.envelope);
             }
         }
     }
@@ -79,49 +88,78 @@ impl MachinesAsked {
         seats
     }
 
+    /// A warning for each machine, at a path.
+    pub fn warnings(&self, path: &str) -> Vec<Diagnostic> {
+        let warning = |beyond: &MachineOutside, message: String, help: &str| {
+            let found = Diagnostic::warning(path, message)
+                .help(help)
+                .code(codes::MACHINE_DEMAND);
+            if self.lossless.contains(&beyond.machine) {
+                found.note("its torque is taken without the losses of the gearbox")
+            } else {
+                found
+            }
+        };
+        let outside = self.most(|of_set| &of_set.outside_map).into_iter().map(|beyond| {
+            let help = "extend the map, or state other points; the loss at the edge of the map is used";
+            warning(beyond, beyond.words("outside its map"), help)
+        });
+        let beyond = self.most(|of_set| &of_set.envelope).into_iter().map(|beyond| {
+            let help = "state points that the machine can run, or correct `envelope`; points are not limited";
+            warning(beyond, beyond.words("beyond its envelope"), help)
+        });
+        outside.chain(beyond).collect()
+    }
+
+    /// Each machine with the model set that has it beyond at most points.
+    fn most(&self, of: fn(&Beyond) -> &Vec<MachineOutside>) -> Vec<&MachineOutside> {
+        let rank = |beyond: &MachineOutside| (beyond.points, beyond.size());
+        let mut all: Vec<&MachineOutside> = Vec::new();
+        for beyond in self.by_set.values().flat_map(of) {
+            match all.iter_mut().find(|known| known.machine == beyond.machine) {
+                Some(known) if rank(known) < rank(beyond) => *known = beyond,
+                Some(_) => {}
+                None => all.push(beyond),
+            }
+        }
+        all
+    }
+}
+
+impl Beyond {
     /// One point in a gear.
     fn at(seats: &[Seat<'_>], given: Given) -> Self {
-        let mut asked = Self::default();
+        let mut found = Self::default();
         for seat in seats {
             let (machine, speed, torque) = (seat.machine, seat.speed * given.speed, seat.torque * given.torque);
             // Without torque a machine whose inverter is off needs no map.
             let map = machine.map().filter(|_| torque != 0.0 || !machine.freewheels());
             if map.is_some_and(|map| map.excess(speed, torque) > 0.0) {
                 let excess = machine.excess(speed, torque);
-                asked
+                found
                     .outside_map
                     .push(MachineOutside::beyond(machine, [torque, speed], excess));
             }
             let envelope = machine.envelope();
             if let Some(envelope) = envelope.filter(|of| of.reached(speed, torque) == Reached::Beyond) {
                 let excess = [torque.abs() - envelope.most(speed), 0.0];
-                asked
-                    .beyond_envelope
+                found
+                    .envelope
                     .push(MachineOutside::beyond(machine, [torque, speed], excess));
             }
         }
-        asked
+        found
     }
 
-    /// A warning for each machine, at a path.
-    pub fn warnings(&self, path: &str) -> Vec<Diagnostic> {
-        let warning = |asked: &MachineOutside, message: String, help: &str| {
-            let found = Diagnostic::warning(path, message).help(help).code(codes::MACHINE_ASKED);
-            if self.lossless.contains(&asked.machine) {
-                found.note("its torque is taken without the losses of the gearbox")
-            } else {
-                found
-            }
+    /// Less is no machine beyond, then less power of the excess, which is none at standstill.
+    fn compare(&self, other: &Self) -> Ordering {
+        let rank = |beyond: &Self| {
+            let places = [&beyond.outside_map, &beyond.envelope].into_iter().flatten();
+            let sizes: Vec<f64> = places.map(MachineOutside::size).collect();
+            (!sizes.is_empty(), sizes.iter().sum::<f64>())
         };
-        let outside = self.outside_map.iter().map(|asked| {
-            let help = "extend the map, or state other points; the loss at the edge of the map is used";
-            warning(asked, asked.words("outside its map"), help)
-        });
-        let beyond = self.beyond_envelope.iter().map(|asked| {
-            let help = "state points that the machine can run, or correct `envelope`; points are not limited";
-            warning(asked, asked.words("beyond its envelope"), help)
-        });
-        outside.chain(beyond).collect()
+        let [(own, size), (others, other_size)] = [self, other].map(rank);
+        own.cmp(&others).then(size.total_cmp(&other_size))
     }
 }
 
