@@ -632,12 +632,10 @@ fn the_level_of_the_drive_unit_decides_its_churning() {
     }
 }
 
-/// A text of the slow example with a second oil, whose pocketed bearing has one of the two and catches a stated flow.
-fn with_pocket(lubricant: &str, wetting: &str) -> String {
+/// A text of the slow example with a second oil and a bearing with a pocket, which has one of the two and more keys.
+fn with_pocket(lubricant: &str, keys: &str) -> String {
     let text = std::fs::read_to_string(file("tests/oil/slow.yaml")).unwrap();
-    let pocket = format!(
-        "pocket: {{ edge: 5 mm, edge_radius: 15 mm, length: 12 mm, catch: {{ width: 40 mm, walls: 400 mm{wetting} }} }}"
-    );
+    let pocket = format!("pocket: {{ edge: 5 mm, edge_radius: 15 mm, length: 12 mm{keys} }}");
     text.replace("volume: 0.06 l, level: -38 mm", "volume: 0.1 l")
         .replace(
             "lubricants:\n",
@@ -649,11 +647,26 @@ fn with_pocket(lubricant: &str, wetting: &str) -> String {
         )
 }
 
+/// The same with a circuit of its own oil, which supplies the pocket from one junction; a pipe to `end` supplies the other.
+fn with_circuit(lubricant: &str, of_circuit: &str, end: &str) -> String {
+    let circuit = format!(
+        "oil_network:
+  lubricant: {of_circuit}
+  junctions: {{ tank: {{}}, gallery: {{}} }}
+  pumps: {{ pump: {{ from: tank, to: gallery, speed: 1000 rpm, displacement: 1 cm3 }} }}
+  pipes: {{ back: {{ from: tank, to: {end}, diameter: 20 mm, length: 100 mm }} }}
+  nozzles: {{ jet: {{ from: gallery, diameter: 4 mm, feeds: [bearings.left_out] }} }}
+lubricants:
+"
+    );
+    with_pocket(lubricant, "").replace("lubricants:\n", &circuit)
+}
+
 /// What stands in a pocket is missing from the sump only if it is the oil of the sump.
 #[test]
 fn pockets_of_another_oil_are_not_subtracted() {
     let of = |lubricant: &str| {
-        let t = of_text(&with_pocket(lubricant, ", wetting: 1 l/min"));
+        let t = of_text(&with_circuit(lubricant, lubricant, "housing"));
         solved(&t, 3000.0, 80.0, 0.0, |solution| {
             let height = solution.pockets().next().unwrap().height;
             let levels = solution.oil_levels().unwrap();
@@ -675,20 +688,37 @@ fn pockets_of_another_oil_are_not_subtracted() {
     assert_eq!((running.to_bits(), in_pockets), (without.to_bits(), 0.0));
 }
 
-/// Gears of the sump cannot fill the pocket of a bearing with another oil.
+/// Neither gears nor the network can fill the pocket of a bearing with another oil, and oil from the sump is that of the sump.
 #[test]
-fn gears_throw_the_oil_of_the_sump() {
+fn pockets_and_networks_have_one_oil() {
     let language = language();
     let read = |text: &str| {
         let files = InMemory::default().shared();
         let gearbox = Gearbox::from_text(&language, &files, text, "gearbox.yaml", Path::new("")).unwrap();
         gearbox.transmission(&language, &Choice::default())
     };
-    assert!(read(&with_pocket("oil", "")).is_ok());
-    let found = read(&with_pocket("grade", "")).err().unwrap();
-    let [error] = &found.list[..] else {
-        panic!("{}", found.render())
-    };
-    assert_eq!(error.path, "bearings.left_out.pocket.catch");
-    assert!(error.message.contains("another lubricant"), "{}", error.message);
+    let catch = |wetting: &str| format!(", catch: {{ width: 40 mm, walls: 400 mm{wetting} }}");
+    let [calculated, stated] = ["", ", wetting: 1 l/min"].map(catch);
+    for text in [
+        with_pocket("oil", &calculated),
+        with_pocket("oil", &stated),
+        with_circuit("oil", "oil", "sump"),
+        with_circuit("grade", "grade", "housing"),
+    ] {
+        assert!(read(&text).is_ok(), "{text}");
+    }
+    for (text, path) in [
+        (with_pocket("grade", &calculated), "bearings.left_out.pocket.catch"),
+        (with_pocket("grade", &stated), "bearings.left_out.pocket.catch"),
+        (with_circuit("grade", "oil", "housing"), "oil_network.nozzles.jet.feeds"),
+        (with_circuit("oil", "grade", "housing"), "oil_network.nozzles.jet.feeds"),
+        (with_circuit("grade", "grade", "sump"), "oil_network.lubricant"),
+    ] {
+        let found = read(&text).err().unwrap();
+        let [error] = &found.list[..] else {
+            panic!("{}", found.render())
+        };
+        assert_eq!(error.path, path, "{}", error.message);
+        assert!(error.message.contains("another lubricant"), "{}", error.message);
+    }
 }

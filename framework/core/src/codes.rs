@@ -189,7 +189,7 @@ gearloss_document::codes! {
         cause: "The shares of all pairs of teeth in a file of `load_sharing: { type: file }` do not add up to one exactly.",
         help: "Write the file with more places along the path, two of them close to each other where a share jumps.";
     LEAN_UNUSED = "W0352", "misalignment without effect",
-        cause: "A mesh states `misalignment` or `shaft_deflection`, and neither its model nor a rating has thin slices, which alone take it.",
+        cause: "A mesh states `misalignment` or `shaft_deflection`, and neither its model nor a rating has thin slices, which alone use it.",
         help: "State `load_sharing: { type: slices }` in the model of the mesh, or remove what has no effect.";
     MISSED_WINDOW = "W0360", "no oil comes through a window",
         cause: "The oil that the gear of a window throws at the rated speed passes the window of a pocket, or the gear throws none.",

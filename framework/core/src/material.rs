@@ -37,13 +37,16 @@ pub fn reduced_modulus([first, second]: [Elastic; 2]) -> f64 {
 }
 
 /// Thermal properties of a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Conductor {
-    /// Thermal conductivity. \[W/(m K)\]
+    /// Thermal conductivity. [W/(m K)]
+    #[schemars(range(min = 0.05, max = 500.0))]
     pub conductivity: f64,
-    /// Density. \[kg/m3\]
+    /// Density. [kg/m3]
+    #[schemars(range(min = 500.0, max = 25000.0))]
     pub density: f64,
-    /// Specific heat. \[J/(kg K)\]
+    /// Specific heat. [J/(kg K)]
+    #[schemars(range(min = 50.0, max = 5000.0))]
     pub heat_capacity: f64,
 }
 

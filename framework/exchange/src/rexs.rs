@@ -263,7 +263,10 @@ fn convert(source: &Source<'_>, title: String, language: &Language) -> Option<Im
             shares::add(&map, &transmission, &mut draft);
             Vec::new()
         }
-        Err(faults) => faults,
+        Err(faults) => {
+            shares::postpone(&map);
+            faults
+        }
     };
     if source.has_errors() {
         return None;

@@ -56,7 +56,7 @@ impl Model {
         self.relation("stage", &[("stage", id), ("gear_1", gears[0]), ("gear_2", gears[1])])
     }
 
-    fn bearing(&mut self, id: i64, sides: [i64; 2], at: &str, axial: &str) -> &mut Self {
+    pub fn bearing(&mut self, id: i64, sides: [i64; 2], at: &str, axial: &str) -> &mut Self {
         let data = "bearing_type=radial_grooved_ball_bearing catalogue_designation=6206";
         self.component(
             id,
@@ -138,13 +138,14 @@ fn attributes_of(text: &str) -> String {
     let mut all = String::new();
     for attribute in text.split_whitespace() {
         let (id, value) = attribute.split_once('=').unwrap();
-        let cells = |value: &str| -> String {
+        let cells = |value: &str| {
             let cells = value.split([',', ';']).filter(|cell| !cell.is_empty());
-            cells.map(|cell| format!("<c>{cell}</c>")).collect()
+            let cells: Vec<String> = cells.map(|cell| format!("<c>{cell}</c>")).collect();
+            cells.concat()
         };
         let value = if value.contains('|') {
-            let rows: String = value.split('|').map(|row| format!("<r>{}</r>", cells(row))).collect();
-            format!("<matrix>{rows}</matrix>")
+            let rows: Vec<String> = value.split('|').map(|row| format!("<r>{}</r>", cells(row))).collect();
+            format!("<matrix>{}</matrix>", rows.concat())
         } else if value.contains([',', ';']) {
             format!("<array>{}</array>", cells(value))
         } else {
@@ -685,6 +686,7 @@ fn what_cannot_be_solved_is_said() {
         ],
     );
     assert!(imported.report.iter().any(|line| line.starts_with("To correct")));
+    assert!(!imported.gearbox.contains("loads on the teeth"));
 }
 
 #[test]

@@ -10,7 +10,7 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::Undefined;
 use gearloss_framework::material::{Conductor, FAST};
-use gearloss_framework::mechanism::heat_link::{FlankHeat, GearMaterial, HeatLink, HeatLinkAt, HeatLinkModel};
+use gearloss_framework::mechanism::heat_link::{GearMaterial, HeatLink, HeatLinkAt, HeatLinkModel};
 use gearloss_framework::registry::{Build, Evidence, default_of, formula};
 use gearloss_framework::{limits, register};
 use schemars::JsonSchema;
@@ -65,14 +65,14 @@ pub struct Params {
     /// Specific heat of the flanks; default: that of the gears' materials, else 470. [J/(kg K)]
     #[schemars(range(min = 100.0, max = 3000.0))]
     pub heat_capacity: Option<f64>,
-    /// The flanks of the other gear, if they are not of its material.
-    pub mate: Option<FlankHeat>,
+    /// Thermal properties of the other gear's flanks; default: those stated here for both, else of its material, else of steel.
+    pub mate: Option<Conductor>,
 }
 
 fn pairs() -> f64 {
     1.5
 }
-/// The steel of gears that name no material.
+/// Steel, for metals whose thermal properties are not stated.
 const FLANK: Conductor = Conductor {
     conductivity: STEEL,
     density: 7800.0,
@@ -97,11 +97,11 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<Teeth, Diagnostic> {
     let mate = of_mate.or(gear.map(|gear| gear.mate)).unwrap_or_default();
     let materials = [gear.map(|gear| gear.material).unwrap_or_default(), mate];
     let stated = [params.conductivity, params.density, params.heat_capacity];
-    let known = materials.map(|of| (of.kind, of.thermal.map(Conductor::from)));
+    let known = materials.map(|of| (of.kind, of.thermal));
     let [own, other] = flanks(stated, FLANK, known, cx)?;
     Ok(Teeth {
         // What is stated for `mate` is its own, also where the other flank's values are stated.
-        flanks: [own, params.mate.map_or(other, Conductor::from)],
+        flanks: [own, params.mate.unwrap_or(other)],
         half_width: params.half_width,
         length: of_gear(
             params.length,

@@ -26,7 +26,7 @@ pub struct Common {
 }
 
 impl Common {
-    /// Those of an entry with keys of its own, for one piece.
+    /// The common keys of an entry that states them itself; its count is one.
     pub fn of(lubricant: Option<&String>, temperature_offset: f64, loss_factor: f64) -> Self {
         Self {
             lubricant: lubricant.cloned(),

@@ -10,7 +10,7 @@ use crate::hydraulics::{Orifice, Rib};
 /// Pressures are those over the air of the housing.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct OilNetworkEntry {
-    /// Oil; default: that of the housing.
+    /// Oil of a circuit with neither `sump` nor chambers; default: that of the housing.
     #[schemars(extend("x-refers-to" = "lubricants"))]
     pub lubricant: Option<String>,
     /// Oil temperature in the network minus that of the sump. [K]

@@ -27,8 +27,6 @@ pub struct Chamber {
     pub height: Option<f64>,
     /// Number of its oil.
     pub oil: u16,
-    /// True if its oil is that of the sump, which lacks it.
-    pub of_sump: bool,
     /// Chamber into which it drains, by number; the sump without.
     pub into: Option<usize>,
 }
@@ -56,7 +54,7 @@ pub struct Pocket {
     pub room: Option<Room>,
     /// Number of its oil.
     pub oil: u16,
-    /// True if its oil is that of the sump, which lacks it.
+    /// True if its oil is that of the sump, so that it is missing there.
     pub of_sump: bool,
 }
 
@@ -223,7 +221,7 @@ impl Hydraulics {
     /// Oil of the sump that stands in chambers. \[m3\]
     pub(crate) fn held<R: Points>(&self, work: &Work<R>, at: &Inputs<'_, R>) -> R {
         let mut held = R::ZERO;
-        for (number, chamber) in self.chambers.iter().enumerate().filter(|(_, chamber)| chamber.of_sump) {
+        for (number, chamber) in self.chambers.iter().enumerate() {
             let flow = self.through(number, work);
             let fluid = self.aerated(&at.oils[chamber.oil as usize]);
             let head = chamber.drain.pressure(flow, fluid.eta, fluid.rho) / (fluid.rho * GRAVITY);

@@ -34,42 +34,14 @@ pub struct GearMaterial {
     #[serde(default)]
     pub kind: MaterialKind,
     /// Thermal properties, if they are stated.
-    pub thermal: Option<FlankHeat>,
-}
-
-/// Thermal properties of a flank.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FlankHeat {
-    /// Thermal conductivity. [W/(m K)]
-    #[schemars(range(min = 0.05, max = 500.0))]
-    pub conductivity: f64,
-    /// Density. [kg/m3]
-    #[schemars(range(min = 500.0, max = 25000.0))]
-    pub density: f64,
-    /// Specific heat. [J/(kg K)]
-    #[schemars(range(min = 50.0, max = 5000.0))]
-    pub heat_capacity: f64,
-}
-
-impl From<FlankHeat> for Conductor {
-    fn from(of: FlankHeat) -> Self {
-        Self {
-            conductivity: of.conductivity,
-            density: of.density,
-            heat_capacity: of.heat_capacity,
-        }
-    }
+    pub thermal: Option<Conductor>,
 }
 
 impl From<Material> for GearMaterial {
     fn from(of: Material) -> Self {
         Self {
             kind: of.kind,
-            thermal: of.thermal.map(|own| FlankHeat {
-                conductivity: own.conductivity,
-                density: own.density,
-                heat_capacity: own.heat_capacity,
-            }),
+            thermal: of.thermal,
         }
     }
 }
@@ -95,7 +67,7 @@ pub struct GearShape {
     /// Its material; default: a steel.
     #[serde(default)]
     pub material: GearMaterial,
-    /// The material of the gear that meshes with it and is in the other node of the link; default: a steel.
+    /// The material of the gear that meshes with it: of several, the first in the other node of the link, else the first; default: a steel.
     #[serde(default)]
     pub mate: GearMaterial,
 }

@@ -440,7 +440,7 @@ impl<'a> Build<'a> {
         self.slot_beside(path, part, value)
     }
 
-    /// Builds the model of an entry at a path, which is in its `model`; `none` if it states none.
+    /// Builds the model that the entry at a path states as its `model`; without one, `none`.
     ///
     /// # Errors
     /// If the model cannot be built.

@@ -493,8 +493,8 @@ proptest! {
     }
 }
 
-/// How far a square sump with half a side (m) falls while the gear throws off a power (W) at a rim speed (m/s), and what is missing from it
-/// at the level found. \[m and m3\]
+/// How far the level of a square sump falls, from half its side (m), while the gear throws off a power (W) at a rim speed (m/s), and what is
+/// missing from it at the level found. \[m and m3\]
 fn fall(half: f64, (power, v, nu): (f64, f64, f64)) -> [f64; 2] {
     let corners = vec![[-half, -half], [half, -half], [half, half], [-half, half]];
     let range = [-half, half];

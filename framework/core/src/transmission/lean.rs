@@ -25,7 +25,7 @@ pub fn is_wanted(entry: &GearboxEntry) -> bool {
     entry.meshes.0.iter().any(|(_, mesh)| mesh.shaft_deflection)
 }
 
-/// Reports misalignments, stated or by the shafts, of meshes where nothing has thin slices, which alone take them.
+/// Reports misalignments, stated or by the shafts, of meshes where nothing has thin slices, which alone use them.
 pub fn without_effect(entry: &GearboxEntry, resolved: &Value) -> Vec<Diagnostic> {
     let has_slices = |model: &Value| {
         let sharing = SharingEntry::of_model(model);
@@ -51,10 +51,14 @@ pub fn without_effect(entry: &GearboxEntry, resolved: &Value) -> Vec<Diagnostic>
     let unused = stated.filter(|(id, _)| !has_slices(&resolved["meshes"][*id]["model"]));
     unused
         .map(|(id, key)| {
-            let message = format!("`{key}` has no effect: neither the model of the mesh nor a rating has thin slices");
+            let message = format!(
+                "`{key}` has no effect on losses and ratings: neither the model of the mesh nor a rating has thin slices"
+            );
             Diagnostic::warning(format!("meshes.{id}.{key}"), message)
                 .code(codes::LEAN_UNUSED)
-                .help("write `load_sharing: { type: slices }` in the model of the mesh, or remove it")
+                .help(format!(
+                    "write `load_sharing: {{ type: slices }}` in the model of the mesh, or remove `{key}`"
+                ))
         })
         .collect()
 }

@@ -128,6 +128,23 @@ impl Names<'_, '_> {
         let rotating = network.rotating_channels.iter();
         let all = rotating.filter_map(|(id, channel)| self.rotating(id, channel, oils));
         built.elements.extend(all);
+        self.check_oil(built);
+    }
+
+    /// The oil that comes from the sump and returns there is that of the sump.
+    fn check_oil(&mut self, built: &Hydraulics) {
+        let entry = self.around.entry;
+        let (Some(own), Some(sump)) = (&self.network.lubricant, &entry.housing.oil) else {
+            return;
+        };
+        let mut elements = built.elements.iter();
+        let has_sump = !built.chambers.is_empty() || elements.any(|element| element.ends.contains(&End::Sump));
+        // A lubricant that is not known was reported.
+        if has_sump && *own != sump.lubricant && entry.lubricants.get(own).is_some() {
+            let message = "the network takes oil from the sump and returns it there, but states another lubricant";
+            self.found
+                .push(Diagnostic::error("oil_network.lubricant", message).help("remove `lubricant` of the network"));
+        }
     }
 
     /// Names of junctions and chambers that are taken.
@@ -228,7 +245,6 @@ impl Names<'_, '_> {
                 holes: [chamber.drain_x, chamber.drain_y],
                 height: chamber.height,
                 oil: oil.unwrap_or(0),
-                of_sump: oil.is_some_and(|oil| oils.is_of_sump(oil)),
                 into: into[i].and_then(|into| order.iter().position(|known| *known == into)),
             });
         }
@@ -620,7 +636,7 @@ fn seated_pocket(
         );
     }
     let of_sump = oils.is_of_sump(pocket.oil);
-    for (key, is_stated) in [("catch", caught.is_some()), ("window", window.is_some())] {
+    for (key, is_stated) in [("catch", rib.is_some()), ("window", window.is_some())] {
         if is_stated && !of_sump {
             found.push(
                 Diagnostic::error(
@@ -628,6 +644,19 @@ fn seated_pocket(
                     "gears throw the oil of the housing into the pocket, but the bearing has another lubricant",
                 )
                 .help(format!("remove `lubricant` of the bearing, or `{key}`")),
+            );
+        }
+    }
+    for (element, _) in &feeds {
+        let element = &network.elements[*element];
+        if !oils.are_alike(element.oil, pocket.oil) {
+            let message =
+                "`feeds` brings the oil of the network into the pocket, but the bearing has another lubricant";
+            found.push(
+                Diagnostic::error(format!("{}.feeds", element.path), message).help(format!(
+                    "remove `lubricant` of the bearing, or `{}` from `feeds`",
+                    pocket.path
+                )),
             );
         }
     }

@@ -283,6 +283,12 @@ impl<'a> OilNumbers<'a> {
             .is_some_and(|(lubricant, ..)| Some(*lubricant) == self.default)
     }
 
+    /// True if two oils are the same lubricant, at whatever temperatures.
+    pub fn are_alike(&self, first: u16, second: u16) -> bool {
+        let of = |oil: u16| self.spots.get(oil as usize).map(|(lubricant, ..)| *lubricant);
+        of(first) == of(second)
+    }
+
     /// Finds level at rest and volume from each other, and compares them if both are stated. \[degC\]
     fn settle(&mut self, oil: &OilEntry, temperature: f64) {
         self.volume = oil.volume;

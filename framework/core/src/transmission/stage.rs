@@ -249,8 +249,9 @@ impl Transmission {
             .flatten()
     }
 
-    /// Solves speeds and torques at the reference port in a gear state, with an ideal flow and the oil at its temperature, and returns what models
-    /// noted; nothing if they do not determine the state. \[rad/s, Nm\]
+    /// Calls `each` for every point of speed and torque at the reference port in a gear state, solved with an ideal flow and the oil at its
+    /// temperature, and returns the notes of the models. Without a case at the reference port it calls nothing; points with a torque are left
+    /// out where no port has one. \[rad/s, Nm\]
     pub fn at_reference(
         &self,
         state: usize,

@@ -5,21 +5,35 @@
 
 use super::model::{LONGEST_LIST, Value};
 
-/// The array of a code and a text; [`Value::Other`] if it is longer than a vector or a table, or cannot be decoded.
+/// The array of a code and a text; [`Value::Other`] if it has more than [`LONGEST_LIST`] values, or cannot be decoded.
 pub fn array(code: &str, text: &str) -> Value {
+    values(code, text, LONGEST_LIST)
+}
+
+/// The matrix of a code, a text and a number of columns; [`Value::Other`] if it has more than [`LONGEST_LIST`] rows or columns, or cannot be
+/// decoded.
+pub fn matrix(code: &str, text: &str, columns: usize) -> Value {
+    if columns > LONGEST_LIST {
+        return Value::Other;
+    }
+    values(code, text, LONGEST_LIST.saturating_mul(columns)).rows(columns)
+}
+
+/// At most this many values.
+fn values(code: &str, text: &str, most: usize) -> Value {
     let width = match code {
         "int32" | "float32" => 4,
         "float64" => 8,
         _ => return Value::Other,
     };
-    // Longer ones are results; they are not decoded.
-    if text.len() > 2 * width * LONGEST_LIST {
+    // A value takes four thirds of its bytes, besides line breaks; a longer text is not decoded.
+    if text.len() > most.saturating_mul(2 * width) {
         return Value::Other;
     }
     let Some(bytes) = base64(text) else {
         return Value::Other;
     };
-    if bytes.len() % width != 0 || bytes.len() / width > LONGEST_LIST {
+    if bytes.len() % width != 0 || bytes.len() / width > most {
         return Value::Other;
     }
     let number = |bytes: &[u8]| match (code, bytes) {
@@ -89,6 +103,18 @@ mod tests {
         assert_eq!(array("int32", "AQAAAP7///8="), list(&["1", "-2"]));
         assert_eq!(array("float32", "AADAPwAA\nAMA"), list(&["1.5", "-2"]));
         assert_eq!(array("float64", ""), list(&[]));
+    }
+
+    /// Four letters are three bytes: 21,000 numbers are too many for an array, and 20,001 rows too many for a matrix.
+    #[test]
+    fn matrices_have_as_many_rows_as_arrays_have_values() {
+        let zeros = |count: usize| "A".repeat(count * 4 * 4 / 3);
+        assert_eq!(array("int32", &zeros(21_000)), Value::Other);
+        let rows = vec![vec!["0".to_owned(); 3]; 7000];
+        assert_eq!(matrix("int32", &zeros(21_000), 3), Value::Rows(rows));
+        assert_eq!(matrix("int32", &zeros(20_001), 1), Value::Other);
+        assert_eq!(matrix("int32", &zeros(21_000), 0), Value::Other);
+        assert_eq!(matrix("int32", &zeros(21_000), usize::MAX), Value::Other);
     }
 
     #[test]

@@ -290,12 +290,9 @@ fn value(raw: &str) -> Value {
     };
     if raw.starts_with('{') {
         let part = serde_json::from_str::<CodedPart>(raw);
-        return part.map_or(Value::Other, |part| {
-            let list = coded::array(&part.code, &part.value);
-            match part.columns {
-                Some(columns) => list.rows(columns),
-                None => list,
-            }
+        return part.map_or(Value::Other, |part| match part.columns {
+            Some(columns) => coded::matrix(&part.code, &part.value, columns),
+            None => coded::array(&part.code, &part.value),
         });
     }
     if !raw.starts_with('[') {

@@ -17,9 +17,11 @@ use super::loads::{Values, all};
 use super::map::{Map, id};
 use super::model::{Component, Id};
 use super::pose::sum;
+use super::source::counted;
 use super::units::Quantity;
 use super::yaml::number;
 
+const DATA_SET: &str = "meshing_contact_stage_data_set";
 const LINE_LOAD: &str = "local_normal_line_load";
 const FACTOR: &str = "load_sharing_factor_of_calculation_points_agma_925_2003";
 const ROLL_ANGLE: &str = "roll_angles_of_calculation_points_agma_925_2003";
@@ -29,9 +31,34 @@ const ROUNDING: f64 = 1e-5;
 /// Distance of the first and last roll angle from the ends of the path, over its length, that is rounding of tip circles.
 const ENDS: f64 = 0.02;
 
+/// Notes that loads on the teeth of a model are not taken because its gearbox has errors, which the report lists first.
+pub fn postpone(map: &Map<'_>) {
+    let cases = cases(map);
+    let is_stated = |(kind, attribute): (&str, &str)| {
+        let mut components = map.source.components(kind);
+        components.any(|component| has(&cases, component, attribute))
+    };
+    if [("cylindrical_stage", FACTOR), (DATA_SET, LINE_LOAD)]
+        .into_iter()
+        .any(is_stated)
+    {
+        map.source
+            .note("loads on the teeth are not taken until the errors above are corrected: import again");
+    }
+}
+
+fn cases<'a>(map: &Map<'a>) -> Vec<Values<'a>> {
+    all(map.source).into_iter().map(|(_, values)| values).collect()
+}
+
+/// True if the model or one of its cases states an attribute.
+fn has(cases: &[Values<'_>], component: &Component, attribute: &str) -> bool {
+    component.attribute(attribute).is_some() || cases.iter().any(|values| values.states(component, attribute))
+}
+
 /// Adds the table of each mesh whose loads the model has, and what its model takes of them; notes why others are not taken.
 pub fn add(map: &Map<'_>, transmission: &Transmission, draft: &mut Draft) {
-    let cases: Vec<Values<'_>> = all(map.source).into_iter().map(|(_, values)| values).collect();
+    let cases = cases(map);
     let Draft {
         meshes, gears, shares, ..
     } = draft;
@@ -57,31 +84,40 @@ pub fn add(map: &Map<'_>, transmission: &Transmission, draft: &mut Draft) {
             face,
             cases: &cases,
         };
-        let Some(table) = of.line_loads().or_else(|| of.factors()) else {
-            continue;
-        };
         let file = format!("shares_{}.csv", mesh.id);
-        let checked = table.and_then(|text| {
+        let carries_the_force = |text: &str| {
             let entry = SharingEntry::Calculated(CalculatedSharing::File { path: file.clone() });
             let read = Sharing::new(part, &entry, Flank::Drive, |_| Ok(Arc::from(text.as_bytes())));
-            read.map_err(|fault| fault.at("").message).map(|_| text)
+            read.map_err(|fault| fault.at("").message).map(|_| ())
+        };
+        let Some(table) = of.table(carries_the_force) else {
+            continue;
+        };
+        let at = table.torque.map(|torque| {
+            let torque = number(torque.abs());
+            format!("; the shares are those at {torque} Nm and hold for every torque")
         });
-        match checked {
-            Ok(text) => {
-                map.source.assume(format!(
-                    "{}: its loss is integrated along the path of contact, with the loads on the teeth of the file and friction after Xu; without \
-                     `model` of the mesh it has that of `models`",
-                    mesh.id
-                ));
-                mesh.shares = Some(file.clone());
-                shares.push((file, text));
-            }
-            Err(why) => map.source.note(format!(
-                "{}: the loads on its teeth were not taken: {why}",
-                stage.label()
-            )),
+        map.source.assume(format!(
+            "{}: its loss is integrated along the path of contact, with the loads on the teeth of the file and friction after Xu{}; without \
+             `model` of the mesh it has that of `models`",
+            mesh.id,
+            at.unwrap_or_default()
+        ));
+        for line in table.notes {
+            map.source.note(format!("{}: {line}", stage.label()));
         }
+        mesh.shares = Some(file.clone());
+        shares.push((file, table.text));
     }
+}
+
+/// A table of loads on the teeth.
+struct Table {
+    text: String,
+    /// The only torque of the loads, whose shares hold for every torque. \[Nm\]
+    torque: Option<f64>,
+    /// What of the model it leaves out.
+    notes: Vec<String>,
 }
 
 /// The components of both gears in the order of the mesh.
@@ -137,24 +173,40 @@ impl<'a> Teeth<'_, 'a> {
         }
     }
 
-    /// True if the model or one of its cases states an attribute.
-    fn has(&self, component: &Component, attribute: &str) -> bool {
-        component.attribute(attribute).is_some() || self.cases.iter().any(|values| values.states(component, attribute))
+    /// The line loads, or the factors where there are no line loads that can be used; notes why loads are not taken.
+    fn table(&self, carries_the_force: impl Fn(&str) -> Result<(), String>) -> Option<Table> {
+        let kinds: [(&str, fn(&Self) -> Option<Result<Table, String>>); 2] = [
+            ("line loads on its teeth", Self::line_loads),
+            ("load sharing factors of its teeth", Self::factors),
+        ];
+        kinds.into_iter().find_map(|(what, read)| {
+            let table = read(self)?.and_then(|table| carries_the_force(&table.text).map(|()| table));
+            let not_taken = |why: String| {
+                let line = format!("{}: the {what} were not taken: {why}", self.stage.label());
+                self.map.source.note(line);
+            };
+            table.map_err(not_taken).ok()
+        })
     }
 
     /// A table of the factors after AGMA 925 over the path; `None` without them.
-    fn factors(&self) -> Option<Result<String, String>> {
-        self.has(self.stage, FACTOR).then(|| self.table_of_factors())
+    fn factors(&self) -> Option<Result<Table, String>> {
+        has(self.cases, self.stage, FACTOR).then(|| self.table_of_factors())
     }
 
-    fn table_of_factors(&self) -> Result<String, String> {
+    fn table_of_factors(&self) -> Result<Table, String> {
         if self.pair.helix_angle != 0.0 || self.pair.internal {
-            return Err("factors after AGMA 925 are shares of the force of external spur gears only".to_owned());
+            return Err("factors after AGMA 925 are shares of the force only for external spur gears".to_owned());
         }
-        let values = self.stating(self.stage, FACTOR)[0];
-        let read = |attribute, quantity| values.numbers(self.stage, attribute, quantity);
-        let factors = read(FACTOR, Quantity::Number).ok_or("they are no array")?;
-        let Some(angles) = read(ROLL_ANGLE, Quantity::RollAngle) else {
+        let read = |values: &Values<'a>| {
+            let factors = values.numbers(self.stage, FACTOR, Quantity::Number);
+            (factors, values.numbers(self.stage, ROLL_ANGLE, Quantity::RollAngle))
+        };
+        let stated: Vec<_> = self.stating(self.stage, FACTOR).iter().map(read).collect();
+        let differing = stated.iter().filter(|other| **other != stated[0]).count();
+        let (factors, angles) = stated.into_iter().next().unwrap_or_default();
+        let factors = factors.ok_or("they are not an array")?;
+        let Some(angles) = angles else {
             return Err(format!("{ROLL_ANGLE} is missing, so their places are not known"));
         };
         if factors.len() != angles.len() {
@@ -184,18 +236,38 @@ impl<'a> Teeth<'_, 'a> {
             let _ = writeln!(text, "{},{}", path.min(1.0), number(share));
             before = path;
         }
-        Ok(text)
+        let mut notes = Vec::new();
+        if differing > 0 {
+            let cases = counted(differing, "further load case");
+            notes.push(format!("the factors of {cases} differ and were not taken"));
+        }
+        Ok(Table {
+            text,
+            torque: None,
+            notes,
+        })
     }
 
     /// A table of the line loads over path and face, at each torque; `None` without them.
-    fn line_loads(&self) -> Option<Result<String, String>> {
-        let sets = self.map.source.components("meshing_contact_stage_data_set");
-        let mut sets = sets.filter(|set| self.has(set, LINE_LOAD));
-        let (set, list, gear) = sets.find_map(|set| {
+    fn line_loads(&self) -> Option<Result<Table, String>> {
+        let sets = self.map.source.components(DATA_SET);
+        let sets = sets.filter(|set| has(self.cases, set, LINE_LOAD));
+        let mut sets = sets.filter_map(|set| {
             let list = self.map.origin(set.id, "point_list")?;
             Some((set, list, self.gear_of(list)?))
-        })?;
-        Some(self.table_of_line_loads(set, list, gear))
+        });
+        let (set, list, gear) = sets.next()?;
+        let further = sets.count();
+        Some(self.table_of_line_loads(set, list, gear).map(|mut table| {
+            if further > 0 {
+                let left_out = counted(further, "further data set");
+                let label = set.label();
+                table.notes.push(format!(
+                    "the line loads of {label} stand for both flanks; {left_out} left out"
+                ));
+            }
+            table
+        }))
     }
 
     /// The gear in whose frame the points of a list are, if they belong to this mesh: to the data of a gear in this stage, or to a gear or its flank
@@ -237,21 +309,38 @@ impl<'a> Teeth<'_, 'a> {
             .filter(|torque| *torque != 0.0)
     }
 
-    fn table_of_line_loads(&self, set: &'a Component, list: &'a Component, gear: usize) -> Result<String, String> {
+    fn table_of_line_loads(&self, set: &'a Component, list: &'a Component, gear: usize) -> Result<Table, String> {
         if self.pair.internal {
             return Err("line loads of internal teeth are not read".to_owned());
         }
         let places = self.places(list, gear)?;
         let mut blocks: Vec<(f64, Vec<Place>)> = Vec::new();
+        let (mut equal, mut opposite) = (0, 0);
         for values in self.stating(set, LINE_LOAD) {
             let Some(torque) = self.torque(&values) else {
                 return Err(
                     "`torque` of its cylindrical_stage_gear_data is missing, so the force is not known".to_owned(),
                 );
             };
-            let is_known = |(known, _): &(f64, Vec<Place>)| known.abs() == torque.abs() || known * torque < 0.0;
-            if !blocks.iter().any(is_known) {
+            if blocks.iter().any(|(known, _)| known * torque < 0.0) {
+                opposite += 1;
+            } else if blocks.iter().any(|(known, _)| *known == torque) {
+                equal += 1;
+            } else {
                 blocks.push((torque, Self::loads(&values, set, &places)?));
+            }
+        }
+        let mut notes = Vec::new();
+        for (count, why) in [
+            (equal, "their torques are those of other cases"),
+            (
+                opposite,
+                "their torques have the opposite sense, and those of the first sense stand for both flanks",
+            ),
+        ] {
+            if count > 0 {
+                let cases = counted(count, "load case");
+                notes.push(format!("the line loads of {cases} were not taken: {why}"));
             }
         }
         blocks.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
@@ -283,7 +372,8 @@ impl<'a> Teeth<'_, 'a> {
                 }
             }
         }
-        Ok(text)
+        let torque = blocks.first().filter(|_| one).map(|(torque, _)| *torque);
+        Ok(Table { text, torque, notes })
     }
 
     /// Place along path and face of each point of a list. \[-, -\]
@@ -313,6 +403,9 @@ impl<'a> Teeth<'_, 'a> {
         let (pose, member) = frame.ok_or("its gear has no position")?;
         let base = self.pair.base_radius[gear];
         let [start, end] = self.face.ok_or("its gears have no positions on their shafts")?;
+        if end <= start {
+            return Err("its gears have no common face at their positions".to_owned());
+        }
         let place = |[radius, u]: [f64; 2]| {
             let distance = (radius * 1e-3).powi(2) - base * base;
             let position = self
@@ -334,7 +427,7 @@ impl<'a> Teeth<'_, 'a> {
         let ids = ids.ok_or_else(|| format!("{} has no set_ids, which name the points of its values", set.label()))?;
         let loads = values
             .numbers(set, LINE_LOAD, Quantity::LineLoad)
-            .ok_or("they are no array")?;
+            .ok_or("they are not an array")?;
         if ids.len() != loads.len() {
             return Err(format!(
                 "{} has {} set_ids and {} line loads",

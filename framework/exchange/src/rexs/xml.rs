@@ -208,11 +208,11 @@ fn value(node: Node<'_, '_>) -> Value {
     let Some(content) = elements(node).next() else {
         return Value::Text(node.text().unwrap_or_default().trim().to_owned());
     };
-    let coded = |code| coded::array(code, content.text().unwrap_or_default());
+    let text = content.text().unwrap_or_default();
     match (content.tag_name().name(), content.attribute("code")) {
-        ("array", Some(code)) => coded(code),
+        ("array", Some(code)) => coded::array(code, text),
         ("array", None) => cells(content).map_or(Value::Other, Value::List),
-        ("matrix", Some(code)) => coded(code).rows(text_of(content, "columns").parse().unwrap_or(0)),
+        ("matrix", Some(code)) => coded::matrix(code, text, text_of(content, "columns").parse().unwrap_or(0)),
         ("matrix", None) => {
             let rows: Option<Vec<Vec<String>>> = elements(content).take(LONGEST_LIST + 1).map(cells).collect();
             rows.filter(|rows| rows.len() <= LONGEST_LIST)

@@ -206,8 +206,8 @@ mod tests {
         fine_sums(slip, traction, low)[1]
     }
 
-    /// Heathcote's slip, P = 0.0805711989 mu Q w a^2/R_d, and with spin besides the value of a quadrature in Python. The grid of the model is within
-    /// two per cent.
+    /// Heathcote's slip, P = 0.0805711989 mu Q w a^2/R_d, and with spin an independent quadrature (400 by 4000 places); a printed 3.1063 W is 0.17 %
+    /// below it. The grid of the model is within two per cent.
     #[test]
     fn powers_of_coulomb() {
         let (friction, heathcote) = (Coulomb(0.05), slip(1000.0, 0.0));
