@@ -170,7 +170,7 @@ fn bearings_that_no_oil_reaches_are_named() {
     assert!(
         found[0]
             .1
-            .contains("the level is -38 mm, and the fastest gear in the oil has 0.219911 m/s of the 3 m/s"),
+            .contains("the level is -38 mm, and the fastest gear in the oil has 0.2199 m/s of the 3 m/s"),
         "{}",
         found[0].1
     );

@@ -7,6 +7,7 @@ pub mod bevel_teeth;
 pub mod chains;
 pub mod crossed;
 mod defaults;
+mod every_mesh;
 pub mod gears;
 pub mod housing;
 pub mod lubricant;
@@ -33,8 +34,9 @@ pub use crossed::{
     SpiralAngleOf, WormMeshEntry,
 };
 pub use gearloss_document::Ordered;
+pub use every_mesh::{MeshCommon, MeshMetal};
 pub use gears::{
-    DifferentialEntry, GearEntry, GearKind, MeshCommon, MeshEntry, MeshMetal, Mounting, PlanetarySetEntry, Surface,
+    DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface,
 };
 pub use housing::{
     HeatInto, HousingEntry, InsideEntry, InsideSection, LevelOver, OilEntry, OutsideEntry, Running, RunningWord,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bevel_teeth::BevelTeeth;
 use super::defaults::default_one;
-use super::gears::{MeshCommon, MeshMetal};
+use super::every_mesh::{MeshCommon, MeshMetal};
 use crate::geometry::WormProfile;
 use crate::mechanism::ModelRef;
 use crate::mechanism::bevel_mesh::BevelMesh;

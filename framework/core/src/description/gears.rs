@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::defaults::default_one;
+use super::every_mesh::{MeshCommon, MeshMetal};
 use super::housing::WallClearance;
 use super::pins::PinsEntry;
 use super::shafts::Unsupported;
@@ -141,36 +142,6 @@ pub struct Surface {
     /// Root mean square roughness of one flank; default: 1.25 times `ra`. [um]
     #[schemars(range(min = 0.001, max = 50.0))]
     pub rq: Option<f64>,
-}
-
-/// What the entries of all kinds of meshes state alike.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-pub struct MeshCommon {
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature in the mesh minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
-    /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
-    /// may fit it. [-]
-    #[serde(default = "default_one")]
-    #[schemars(range(min = 0.0, max = 100.0))]
-    pub loss_factor: f64,
-}
-
-/// Elasticity of the gears of a mesh that name no material.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-pub struct MeshMetal {
-    /// Young's modulus of the gears that name no `material`. [GPa]
-    #[serde(default = "crate::mechanism::gear_mesh::steel")]
-    #[schemars(range(min = 0.1, max = 1000.0))]
-    pub elastic_modulus: f64,
-    /// Poisson's ratio of the gears that name no `material`. [-]
-    #[serde(default = "crate::mechanism::gear_mesh::steel_poisson")]
-    #[schemars(range(min = 0.0, max = 0.49))]
-    pub poisson: f64,
 }
 
 /// Two cylindrical gears in mesh, on parallel axes.

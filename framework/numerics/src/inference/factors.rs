@@ -85,7 +85,8 @@ impl Factors {
                     .map(|(c, j)| jacobian[(i, *j)] * root[(c, k)]);
                 terms.sum()
             };
-            (0..self.resolved).map(|k| entry(k).powi(2)).sum::<f64>().min(1.0)
+            // The sum of no numbers is -0.
+            0.0 + (0..self.resolved).map(|k| entry(k).powi(2)).sum::<f64>().min(1.0)
         };
         (0..jacobian.nrows()).map(row).collect()
     }

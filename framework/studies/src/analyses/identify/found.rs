@@ -171,10 +171,10 @@ impl Found {
             None => Vec::new(),
         };
         let beside = Beside {
-            correction,
             posterior,
             held_out,
             outside,
+            correction,
         };
         let mechanisms = shares.as_ref().map_or(&[][..], |shares| &shares.mechanisms);
         let found = Self {

@@ -17,6 +17,7 @@ pub struct MeanEntry {
     #[schemars(extend("x-keys" = "path"))]
     pub set: Ordered<Value>,
     /// Mechanism whose loss it is, such as `gear_mesh`; default: `all`.
+    #[schemars(extend("x-refers-to" = "mechanism"))]
     pub mechanism: Option<String>,
     /// The loss over which it is stated; what is not written there is as here.
     pub relative_to: Option<RelativeTo>,
@@ -41,5 +42,6 @@ pub struct RelativeTo {
     #[schemars(extend("x-keys" = "path"))]
     pub set: Option<Ordered<Value>>,
     /// Another mechanism, or `all`.
+    #[schemars(extend("x-refers-to" = "mechanism"))]
     pub mechanism: Option<String>,
 }
