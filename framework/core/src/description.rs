@@ -33,11 +33,9 @@ pub use crossed::{
     BevelMeshEntry, CalculationPoint, CrossedHelicalMeshEntry, CutterEntry, CuttingMethod, DepthEntry, FlankAngles,
     SpiralAngleOf, WormMeshEntry,
 };
-pub use gearloss_document::Ordered;
 pub use every_mesh::{MeshCommon, MeshMetal};
-pub use gears::{
-    DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface,
-};
+pub use gearloss_document::Ordered;
+pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
 pub use housing::{
     HeatInto, HousingEntry, InsideEntry, InsideSection, LevelOver, OilEntry, OutsideEntry, Running, RunningWord,
     Thermal, ThermalMode,
