@@ -176,6 +176,9 @@ gearloss_document::codes! {
         cause: "With this hand and offset of a hypoid pair the spiral angle of the pinion is smaller than that of the wheel, which is legal but rare: the \
                 pinion becomes smaller.",
         help: "Check `hand` and the axes; if they are intended, no change is needed.";
+    LONE_GEAR = "W0321", "gear in no mesh",
+        cause: "A gear is named by no mesh. It carries no torque and churns at most; often a mesh was forgotten, and the gearbox has no fixed ratio.",
+        help: "Add the mesh with its mate, or remove the gear if it is none of the gearbox.";
     CHAIN_DOUBTFUL = "W0332", "doubtful chain or belt",
         cause: "The slack strand of a chain sags more than usual, or the forces of a belt on its shafts are not known.",
         help: "Correct the number of links, or state the forces under `loads` of the shafts.";

@@ -51,9 +51,13 @@ pub(super) fn suggest(error: Diagnostic, designation: &str, rows: &[(&str, &Cata
             ));
     }
     let Some(basic) = basic_designation(designation).filter(|_| has_bores(rows)) else {
-        let close = did_you_mean(designation, rows.iter().map(|(name, _)| *name));
-        return match close {
+        let names = || rows.iter().map(|(name, _)| *name);
+        let longer = longer(designation, names());
+        return match did_you_mean(designation, names()) {
             Some(close) => error.help(format!("write `{close}`, or {here}")),
+            None if !longer.is_empty() => error
+                .note(format!("longer: {}", longer.join(", ")))
+                .help(format!("write the whole designation, or {here}")),
             None => error.help(format!("{here}, or add a CSV file under `catalogues`")),
         };
     };
@@ -78,6 +82,17 @@ pub(super) fn suggest(error: Diagnostic, designation: &str, rows: &[(&str, &Cata
         .help(format!(
             "{here}, add a CSV file under `catalogues`, or write another designation if that is the bearing"
         ))
+}
+
+/// Designations that contain an incomplete one, whatever its case and spaces: `VG150` is part of `ISO VG 150 mineral`.
+fn longer<'a>(designation: &str, names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let bare = |text: &str| -> String {
+        let kept = text.chars().filter(|c| c.is_alphanumeric());
+        kept.flat_map(char::to_lowercase).collect()
+    };
+    let part = bare(designation);
+    let is_part = |name: &&str| part.len() > 2 && bare(name).contains(&part);
+    names.filter(is_part).take(SUGGESTED).collect()
 }
 
 fn has_bores(rows: &[(&str, &CatalogueRow)]) -> bool {
@@ -152,6 +167,13 @@ mod tests {
         let (notes, help) = suggested("N208");
         assert_eq!(notes, ["of this kind and bore: NU208EC (40 mm), NJ408 (40 mm)"]);
         assert!(help.starts_with("state it here"), "{help}");
+    }
+
+    #[test]
+    fn an_incomplete_designation_is_completed() {
+        let names = ["ISO VG 15 mineral", "ISO VG 150 mineral", "ISO VG 150 PAO"];
+        assert_eq!(longer("VG150", names.into_iter()), names[1..]);
+        assert!(longer("15", names.into_iter()).is_empty());
     }
 
     #[test]

@@ -48,8 +48,25 @@ pub(crate) fn gearing(
         gearing.warnings,
     );
     meshes.extend(gearing.crossed_meshes());
-    let Gearing { gears, .. } = gearing;
+    let Gearing {
+        gears, found, warnings, ..
+    } = gearing;
+    // A mesh with a fault is none of those.
+    if found.is_empty() {
+        warnings.extend(without_mate(&gears, &meshes));
+    }
     (gears, meshes)
+}
+
+/// Reports gears in no mesh.
+fn without_mate(gears: &[GearSeat], meshes: &[MeshSeat]) -> impl Iterator<Item = Diagnostic> {
+    let lone = move |(number, _): &(usize, &GearSeat)| !meshes.iter().any(|mesh| mesh.gears.contains(number));
+    gears.iter().enumerate().filter(lone).map(|(_, gear)| {
+        let message = format!("`{}` meshes with no gear, so it carries no torque", gear.id);
+        Diagnostic::warning(format!("gears.{}", gear.id), message)
+            .code(codes::LONE_GEAR)
+            .help("add its mesh, or remove the gear if it is none of the gearbox")
+    })
 }
 
 /// The gears while their meshes are computed one after the other: what a mesh determines holds for the next ones.
