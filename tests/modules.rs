@@ -46,6 +46,27 @@ fn files_import_each_other_in_small_cycles_only() {
 }
 
 #[test]
+fn crates_without_tests_of_their_docs_have_no_examples_in_them() {
+    for folder in CRATES {
+        let manifest = fs::read_to_string(file(folder).with_file_name("Cargo.toml")).expect("a manifest");
+        if !manifest.contains("doctest = false") {
+            continue;
+        }
+        for (module, source) in sources(&file(folder)) {
+            let example = source.lines().map(str::trim_start).find(|line| {
+                let text = line.strip_prefix("///").or_else(|| line.strip_prefix("//!"));
+                text.is_some_and(|text| text.trim_start().starts_with("```"))
+            });
+            assert!(
+                example.is_none(),
+                "{folder}: {}: remove `doctest = false`, so that the example is run",
+                module.join("::")
+            );
+        }
+    }
+}
+
+#[test]
 fn cycles_are_found_through_groups_and_relative_paths() {
     let sources = [
         ("", "mod a; mod b; pub use b::B;"),
@@ -70,9 +91,13 @@ fn cycles_are_found_through_groups_and_relative_paths() {
 
 /// For every file of a crate the files that it imports.
 fn imports(folder: &Path) -> BTreeMap<Module, BTreeSet<Module>> {
+    imports_of(&sources(folder))
+}
+
+fn sources(folder: &Path) -> BTreeMap<Module, String> {
     let mut sources = BTreeMap::new();
     read(folder, &mut Vec::new(), &mut sources);
-    imports_of(&sources)
+    sources
 }
 
 /// Reads the sources below a folder by module; files of tests are omitted.
