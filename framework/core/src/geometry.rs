@@ -12,7 +12,7 @@ mod share_table;
 mod worm;
 
 pub use involute::involute;
-pub use pair::{Pair, PairFault, PairSpec};
+pub use pair::{Pair, PairFault, PairSpec, RequiredShifts};
 pub use path::{Line, LoadSharing, PathPoint};
 pub use share_table::{ShareRow, ShareTable};
 pub use worm::{Holding, WormPair, WormProfile, WormSpec};

@@ -8,6 +8,8 @@ use std::io::{Error, ErrorKind, Read as _, Result};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::did_you_mean;
+
 /// Maximum length of a description, study, input of `eval` or template of a report. \[byte\]
 ///
 /// The tree of a text needs about fifty times its length.
@@ -132,7 +134,10 @@ impl fmt::Debug for InMemory {
 impl FileSource for InMemory {
     fn read(&self, path: &Path, longest: u64) -> Result<Vec<u8>> {
         let bytes = self.0.get(&without_dots(path));
-        let bytes = bytes.ok_or_else(|| Error::new(ErrorKind::NotFound, "there is no such file in memory"))?;
+        let bytes = bytes.ok_or_else(|| {
+            let files = self.list(folder_of(path)).unwrap_or_default();
+            missing("there is no such file in memory", path, &files)
+        })?;
         within(bytes.len() as u64, longest)?;
         Ok(bytes.clone())
     }
@@ -209,11 +214,40 @@ pub fn without_dots(path: &Path) -> PathBuf {
 /// # Errors
 /// Errors of the system, or if it is not a regular file: a device may be endless, and a pipe may block.
 pub fn open_regular(path: &Path) -> Result<File> {
+    let metadata = std::fs::metadata(path).map_err(|error| match error.kind() {
+        ErrorKind::NotFound => match list_folder(folder_of(path)) {
+            Ok(files) => missing("there is no such file", path, &files),
+            Err(_) => missing(&format!("there is no folder {}", folder_of(path).display()), path, &[]),
+        },
+        _ => error,
+    })?;
     // Before opening, because opening a pipe waits for its writer.
-    regular(std::fs::metadata(path)?.file_type())?;
+    regular(metadata.file_type())?;
     let file = File::open(path)?;
     regular(file.metadata()?.file_type())?;
     Ok(file)
+}
+
+/// The folder of a file.
+fn folder_of(path: &Path) -> &Path {
+    let folder = path.parent().filter(|folder| *folder != Path::new(""));
+    folder.unwrap_or(Path::new("."))
+}
+
+/// The reason why a file is not found, with the file of its folder that may be meant.
+fn missing(reason: &str, path: &Path, files: &[String]) -> Error {
+    let meant = path.file_name().and_then(|name| similar(name.to_str()?, files));
+    let meant = meant.map_or_else(String::new, |meant| format!("; did you mean `{meant}`?"));
+    Error::new(ErrorKind::NotFound, format!("{reason}{meant}"))
+}
+
+/// The file that may be meant by a name: of similar spelling, or with an extension that the name lacks.
+fn similar<'a>(name: &str, files: &'a [String]) -> Option<&'a str> {
+    let extended = files
+        .iter()
+        .find(|file| Path::new(file).file_stem().is_some_and(|stem| stem == name));
+    let extended = extended.map(String::as_str);
+    extended.or_else(|| did_you_mean(name, files.iter().map(String::as_str)))
 }
 
 fn regular(kind: FileType) -> Result<()> {
@@ -303,7 +337,7 @@ mod tests {
         std::fs::write(&file, [0xff]).unwrap();
         assert_eq!(refused(&file), "it is not UTF-8 text");
         assert_eq!(refused(&folder), "it is a folder, not a file");
-        assert!(refused(folder.join("nowhere")).contains("No such file") || cfg!(windows));
+        assert_eq!(refused(folder.join("nowhere")), "there is no such file");
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
@@ -318,6 +352,32 @@ mod tests {
         );
         let long = files.read(Path::new("rig.csv"), 2).unwrap_err().to_string();
         assert_eq!(long, "it has 1 kB; at most 1 kB are read");
+    }
+
+    #[test]
+    fn a_missing_file_names_the_one_that_may_be_meant() {
+        let folder = std::env::temp_dir().join(format!("gearloss-similar-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let texts = [("gearbox.yaml", "a"), ("rig_2.csv", "b")];
+        let memory = InMemory::new(texts);
+        for (name, text) in texts {
+            std::fs::write(folder.join(name), text).unwrap();
+        }
+        for (wrong, meant) in [
+            ("gearbx.yaml", Some("gearbox.yaml")),
+            ("gearbox.yml", Some("gearbox.yaml")),
+            ("gearbox", Some("gearbox.yaml")),
+            ("rig_3.csv", None),
+            ("study.yaml", None),
+        ] {
+            let help = meant.map_or_else(String::new, |meant| format!("; did you mean `{meant}`?"));
+            assert_eq!(refused(folder.join(wrong)), format!("there is no such file{help}"));
+            let in_memory = memory.read(Path::new(wrong), 16).unwrap_err().to_string();
+            assert_eq!(in_memory, format!("there is no such file in memory{help}"));
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+        let without_folder = refused(folder.join("gearbox.yaml"));
+        assert_eq!(without_folder, format!("there is no folder {}", folder.display()));
     }
 
     #[test]

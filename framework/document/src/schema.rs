@@ -76,6 +76,10 @@ pub struct Field {
     pub default: Option<Value>,
     /// Description.
     pub doc: String,
+    /// Sections whose entries a text names.
+    pub refers_to: Vec<String>,
+    /// Names by which users look for the key.
+    pub also_called: Vec<String>,
 }
 
 /// A construct that the walk cannot check.
@@ -323,6 +327,8 @@ impl Compiler {
                         .and_then(Value::as_str)
                         .unwrap_or_default()
                         .to_owned(),
+                    refers_to: one_or_several(schema.get("x-refers-to")),
+                    also_called: words(schema.get("x-also-called")),
                 };
                 (name.clone(), field)
             })
@@ -389,6 +395,14 @@ fn join(place: &str, key: &str) -> String {
         key.to_owned()
     } else {
         format!("{place}.{key}")
+    }
+}
+
+/// A text or a list of texts.
+fn one_or_several(value: Option<&Value>) -> Vec<String> {
+    match value.and_then(Value::as_str) {
+        Some(one) => vec![one.to_owned()],
+        None => words(value),
     }
 }
 

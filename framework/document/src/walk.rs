@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 use super::code::Code;
 use super::codes;
 use super::diagnostic::{Diagnostic, did_you_mean};
-use super::misplaced;
+use super::misplaced::{self, Elsewhere};
 use super::node::{Content, Key, Node};
 use super::places::{Place, Places};
 use super::quantity::{number_length, parse_quantity};
@@ -447,7 +447,21 @@ impl<'a> Walker<'a> {
 
     fn ids(&mut self, node: &Node, item: &'a Shape, digits_first: bool) -> Option<Value> {
         let Content::Map(entries) = &node.content else {
-            return self.wrong(node, "a map");
+            return match &node.content {
+                Content::List(list)
+                    if !list.is_empty() && list.iter().all(|item| matches!(&item.content, Content::Map(_))) =>
+                {
+                    self.expected(
+                        node,
+                        "a map",
+                        "write `NAME: ...` for each entry, without `-` in front".to_owned(),
+                    )
+                }
+                Content::Text { text, .. } if matches!(self.schema.follow(item), Shape::Text(_)) => {
+                    self.expected(node, "a map", format!("give it a name: `{{ NAME: {text} }}`"))
+                }
+                _ => self.wrong(node, "a map"),
+            };
         };
         let mut map = Map::new();
         for (key, node) in entries {
@@ -628,7 +642,7 @@ impl<'a> Walker<'a> {
         if let Some(shape) = text_first.or_else(|| shapes.iter().filter(fits).rev().max_by_key(known)) {
             self.value(node, shape)
         } else {
-            let kinds: Vec<String> = shapes
+            let mut kinds: Vec<String> = shapes
                 .iter()
                 .map(|s| match schema.follow(s) {
                     Shape::Number { .. } => "a quantity".to_owned(),
@@ -639,6 +653,7 @@ impl<'a> Walker<'a> {
                     _ => "a map".to_owned(),
                 })
                 .collect();
+            kinds.dedup();
             self.wrong(node, &kinds.join(" or "))
         }
     }
@@ -677,6 +692,9 @@ impl<'a> Walker<'a> {
                     if let (Some((tag, _)), "type") = (tag, name.as_str()) {
                         return Some(Value::from(tag));
                     }
+                    if let Some(help) = w.name_instead(node, field) {
+                        return w.expected(node, "a name", help);
+                    }
                     w.value(node, &field.shape)
                 }),
                 None => match &field.default {
@@ -698,9 +716,13 @@ impl<'a> Walker<'a> {
                     None if field.required && meant.contains(name) => None,
                     None if field.required => {
                         let first_sentence = field.doc.split(". ").next().unwrap_or_default().trim_end_matches('.');
+                        let help = match self.schema.follow(&field.shape) {
+                            Shape::Text(words) if words.len() == 1 => format!("add `{name}: {}`", words[0]),
+                            _ => format!("add `{name}:` ({first_sentence})"),
+                        };
                         let finding = Diagnostic::error(self.path.clone(), format!("`{name}` is missing"))
                             .at_span(node.span)
-                            .help(format!("add `{name}:` ({first_sentence})"));
+                            .help(help);
                         self.findings.push(finding.code(codes::MISSING_KEY));
                         None
                     }
@@ -717,13 +739,38 @@ impl<'a> Walker<'a> {
         Some(Value::Object(map))
     }
 
+    /// Help for a map or a list where the name of an entry of a section is expected.
+    fn name_instead(&self, node: &Node, field: &Field) -> Option<String> {
+        let schema = self.schema;
+        let Shape::Record(sections) = schema.follow(&schema.root) else {
+            return None;
+        };
+        let is_section = |section: &&String| sections.iter().any(|(name, _)| name == *section);
+        let section = field.refers_to.iter().find(is_section)?;
+        if !matches!(schema.follow(&field.shape), Shape::Text(_)) {
+            return None;
+        }
+        match &node.content {
+            Content::Map(_) => Some(format!("define it under `{section}` and write its name here")),
+            Content::List(list) => {
+                let names: Vec<String> = list
+                    .iter()
+                    .filter_map(Node::text)
+                    .map(|name| format!("`{name}`"))
+                    .collect();
+                Some(format!("write one name: {}", names.join(" or ")))
+            }
+            _ => None,
+        }
+    }
+
     fn unknown_key(
         &mut self,
         (key, node): (&Key, &Node),
         (fields, tag): (&[(String, Field)], Option<Tag<'_>>),
         open: &[&str],
         behind: Option<f64>,
-    ) -> Option<String> {
+    ) -> Vec<String> {
         let comma = behind
             .filter(|_| matches!(node.content, Content::Null) && key.name.starts_with(|c: char| c.is_ascii_digit()));
         let path = if self.path.is_empty() {
@@ -731,7 +778,7 @@ impl<'a> Walker<'a> {
         } else {
             format!("{}.{}", self.path, key.name)
         };
-        let mut meant = None;
+        let mut meant = Vec::new();
         let finding = if let Some(before) = comma {
             Diagnostic::error(path, "a decimal comma splits the number before it").help(format!(
                 "write `{}.{}`",
@@ -749,8 +796,12 @@ impl<'a> Walker<'a> {
                 let others: Vec<&str> = others.map(|(name, _)| name.as_str()).collect();
                 (variant, others)
             });
-            let inside = !self.path.is_empty();
-            let help = misplaced::help(self.schema, fields, open, &key.name, inside && tag.is_none());
+            let elsewhere = match &of_others {
+                _ if self.path.is_empty() => Elsewhere::No,
+                Some((_, others)) if !others.is_empty() => Elsewhere::OtherType,
+                _ => Elsewhere::Yes,
+            };
+            let help = misplaced::help(self.schema, fields, open, &key.name, elsewhere);
             meant = help.meant;
             match (help.words, of_others) {
                 (Some(words), _) => error.help(words),

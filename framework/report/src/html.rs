@@ -77,6 +77,8 @@ pub struct Section {
     pub key_figures: Vec<KeyFigure>,
     /// Limits of the study that are not kept.
     pub limits: Vec<String>,
+    /// The end of `headline` that says which limits are kept, so that the first screen says it once; may be empty.
+    pub limits_verdict: String,
     /// What else a reader has to be careful about.
     pub careful: Vec<String>,
     /// Main conclusions.
@@ -112,6 +114,7 @@ impl Section {
         self.headline = page.headline;
         self.key_figures = page.key_figures;
         self.limits = page.limits;
+        self.limits_verdict = page.limits_verdict;
         self.careful = page.careful;
         self.outside = page.outside;
         self.blocks.extend(page.blocks);
@@ -174,8 +177,10 @@ struct WithPictures<'a, T> {
 struct PictureOfPage<'a> {
     id: String,
     title: &'a str,
-    /// Whether it shows maps side by side.
+    /// Whether it shows maps.
     panels: bool,
+    /// Whether it shows several maps side by side.
+    side_by_side: bool,
 }
 
 /// A gearbox and the basis of its results.
@@ -327,6 +332,10 @@ impl Report {
                     id: id(all.len() - 1),
                     title: picture.title(),
                     panels: matches!(picture, Picture::Screen(Screen::Panels(_))),
+                    side_by_side: matches!(
+                        picture,
+                        Picture::Screen(Screen::Panels(panels)) if panels.rows.len() * panels.columns.len() > 1
+                    ),
                 }
             });
             pictures.collect()

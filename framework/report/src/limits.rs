@@ -16,7 +16,8 @@ pub fn add(limits: &[LimitReached], page: &mut Page) {
     let broken = limits.iter().filter(|limit| limit.is_broken());
     page.limits = broken.map(|limit| format!("limit {}", sentence(limit))).collect();
     if let Some(headline) = &mut page.headline {
-        headline.push_str(&verdict(limits));
+        page.limits_verdict = verdict(limits);
+        headline.push_str(&page.limits_verdict);
     }
     let mut table = TextTable::new(&["limit", "models", "quantity", "allowed", "worst", "where", "beyond"]);
     for limit in limits {

@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::Figure;
 use crate::picture::{Picture, Screen};
 use crate::stated_ranges::StatedRanges;
-use crate::text::{TextTable, significant};
+use crate::text::{TextTable, printed_unit, significant};
 use crate::{limits, model_error};
 
 /// The presentation of an outcome, in reading order.
@@ -29,6 +29,8 @@ pub struct Page {
     pub key_figures: Vec<KeyFigure>,
     /// Limits of the study that are not kept, as sentences.
     pub limits: Vec<String>,
+    /// Which limits are kept, as the end of the headline; may be empty.
+    pub limits_verdict: String,
     /// What else a reader has to be careful about, the worst first.
     pub careful: Vec<String>,
     /// Text and tables, for the details of the report and for `--verbose`.
@@ -154,7 +156,11 @@ impl Page {
             label: label.to_owned(),
             value: value.into(),
             // The unit of a ratio is not printed.
-            unit: if unit == "-" { String::new() } else { unit.to_owned() },
+            unit: if unit == "-" {
+                String::new()
+            } else {
+                printed_unit(unit).to_owned()
+            },
             detail: detail.into(),
         });
     }

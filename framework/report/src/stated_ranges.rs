@@ -80,6 +80,21 @@ impl Values {
         format!("{beyond} {bound}{}", unit(self.unit))
     }
 
+    /// A value for comparison with the range: one far below a positive bound by a round number below that bound.
+    fn compared(&self, value: f64, print: fn(f64) -> String) -> String {
+        let low = self.ends[0];
+        let negligible = if low > 0.0 && low.is_finite() {
+            10.0_f64.powf(low.log10().floor() - 2.0)
+        } else {
+            0.0
+        };
+        if value > 0.0 && value < negligible {
+            format!("less than {}", print(negligible))
+        } else {
+            print(value)
+        }
+    }
+
     fn share_of_points(&self) -> f64 {
         self.outside as f64 / self.points.max(1) as f64
     }
@@ -291,7 +306,7 @@ impl Group {
         let Some(all) = &self.values else {
             return format!("{OUTSIDE}{paths}: {name} is outside its validity range in some samples{analyses}");
         };
-        let ends = match [all.least, all.greatest].map(significant) {
+        let ends = match [all.least, all.greatest].map(|x| all.compared(x, significant)) {
             [low, high] if low == high => low,
             [low, high] => format!("{low} to {high}"),
         };
@@ -326,7 +341,7 @@ impl Group {
         } else {
             all.least
         };
-        let ends = match [least, all.greatest].map(short) {
+        let ends = match [least, all.greatest].map(|x| all.compared(x, short)) {
             [low, high] if low == high => low,
             [low, high] => format!("{low} to {high}"),
         };
@@ -402,6 +417,19 @@ mod tests {
         assert!(
             ranges.worst()[0].contains("n_dm (-0.001 to 9) is outside the stated range"),
             "small, but below the range"
+        );
+        let mut ranges = StatedRanges::default();
+        let mut pressure = left("meshes.M1.model", 3.47e-7, "map");
+        if let Some(values) = &mut pressure.values {
+            (values.greatest, values.unit, values.ends) = (0.9, "GPa", [0.5, 4.0]);
+        }
+        ranges.add(pressure);
+        let short = &ranges.worst()[0];
+        assert!(short.contains("n_dm (less than 0.001 to 0.9 GPa) is below"), "{short}");
+        let line = &ranges.lines()[0];
+        assert!(
+            line.contains("n_dm less than 0.001 to 0.9 GPa is below the range 0.5 to 4 GPa"),
+            "{line}"
         );
     }
 }

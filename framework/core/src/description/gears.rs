@@ -29,10 +29,10 @@ pub struct GearEntry {
     #[schemars(range(min = -1e5, max = 1e5))]
     pub at: f64,
     /// Number of teeth, of a worm that of its threads; also positive for ring gears. Cylindrical and bevel gears have at least 5. [-]
-    #[schemars(range(min = 1, max = 2000))]
+    #[schemars(range(min = 1, max = 2000), extend("x-also-called" = ["teeth", "number_of_teeth"]))]
     pub z: u32,
     /// Face width. [mm]
-    #[schemars(range(min = 0.1, max = 2000.0))]
+    #[schemars(range(min = 0.1, max = 2000.0), extend("x-also-called" = ["width"]))]
     pub facewidth: f64,
     /// Hand of the helix; that of the mate follows. Not needed for spur gears. Of a bevel gear: right if its teeth turn clockwise outwards,
     /// seen from the apex.
@@ -151,7 +151,7 @@ pub struct MeshEntry {
     #[schemars(extend("x-refers-to" = "gears"))]
     pub gears: [String; 2],
     /// Normal module. [mm]
-    #[schemars(range(min = 0.05, max = 100.0))]
+    #[schemars(range(min = 0.05, max = 100.0), extend("x-also-called" = ["module"]))]
     pub normal_module: f64,
     /// Normal pressure angle. [deg]
     #[serde(default = "twenty_degrees")]

@@ -256,7 +256,7 @@ pub struct Thermal {
     pub mode: ThermalMode,
     /// Oil temperature if it is given. [degC]
     #[serde(default = "eighty")]
-    #[schemars(range(min = -60.0, max = 250.0))]
+    #[schemars(range(min = -60.0, max = 250.0), extend("x-also-called" = ["temperature", "oil_temperature"]))]
     pub oil: f64,
     /// Ambient temperature. [degC]
     #[serde(default = "twenty")]

@@ -129,6 +129,58 @@ impl std::fmt::Display for PairFault {
     }
 }
 
+/// What the centre distance of a pair requires of its teeth. Lengths in m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RequiredShifts {
+    /// The centre distance.
+    pub centre_distance: f64,
+    /// That without profile shift.
+    pub reference_distance: f64,
+    /// That at which the base circles have no line of action.
+    pub least: f64,
+    /// The transverse working pressure angle in rad and the sum x1 + x2 according to ISO 21771; absent up to `least`.
+    pub fit: Option<(f64, f64)>,
+}
+
+impl PairSpec {
+    /// What the centre distance requires; `None` without one.
+    pub fn required_shifts(&self) -> Option<RequiredShifts> {
+        let centre_distance = self.centre_distance?;
+        let (module_t, alpha_t, teeth) = self.transverse();
+        let reference_distance = 0.5 * module_t * teeth;
+        let least = reference_distance * alpha_t.cos();
+        let fit = (centre_distance > least).then(|| {
+            let working = (least / centre_distance).acos();
+            (working, self.shift_sum(alpha_t, teeth, working))
+        });
+        Some(RequiredShifts {
+            centre_distance,
+            reference_distance,
+            least,
+            fit,
+        })
+    }
+
+    /// Transverse module in m, transverse pressure angle in rad, sum of the teeth, where those of a ring gear are positive and those of its mate
+    /// negative.
+    fn transverse(&self) -> (f64, f64, f64) {
+        let (beta, [z1, z2]) = (self.helix_angle, self.z.map(f64::from));
+        let module_t = self.normal_module / beta.cos();
+        let alpha_t = (self.pressure_angle.tan() / beta.cos()).atan();
+        (module_t, alpha_t, z2 + self.sign() * z1)
+    }
+
+    /// One for external pairs, minus one for internal ones.
+    pub fn sign(&self) -> f64 {
+        if self.internal { -1.0 } else { 1.0 }
+    }
+
+    /// Sum x1 + x2 according to ISO 21771 of a transverse working pressure angle in rad.
+    fn shift_sum(&self, alpha_t: f64, teeth: f64, working: f64) -> f64 {
+        self.sign() * ((involute(working) - involute(alpha_t)) * teeth / (2.0 * self.pressure_angle.tan()))
+    }
+}
+
 /// Where the axes of a pair are, and the profile shifts that this takes.
 struct Axes {
     centre_distance: f64,
@@ -140,8 +192,7 @@ struct Axes {
 impl Axes {
     /// From the transverse pressure angle in rad, the sum of the teeth and the reference centre distance in m.
     fn new(spec: &PairSpec, alpha_t: f64, teeth: f64, a: f64, involute_pair: bool) -> Result<Self, PairFault> {
-        let s = if spec.internal { -1.0 } else { 1.0 };
-        let (m, alpha_n) = (spec.normal_module, spec.pressure_angle);
+        let (s, m, alpha_n) = (spec.sign(), spec.normal_module, spec.pressure_angle);
         // ISO 21771: inv alpha_wt = inv alpha_t + 2 tan alpha_n (x1 + x2)/(z1 + z2), where z2 of a ring gear is negative; `teeth`
         // is the magnitude of that sum.
         let distance_of = |sum: f64| {
@@ -154,7 +205,7 @@ impl Axes {
             };
             a * alpha_t.cos() / working.cos()
         };
-        let sum_of = |working: f64| s * ((involute(working) - involute(alpha_t)) * teeth / (2.0 * alpha_n.tan()));
+        let sum_of = |working: f64| spec.shift_sum(alpha_t, teeth, working);
         let both = match spec.profile_shift {
             [Some(x1), Some(x2)] => Some(x2 + x1),
             _ => None,
@@ -379,7 +430,7 @@ impl Pair {
     }
 
     fn solve(spec: &PairSpec, involute_pair: bool) -> Result<Self, Vec<PairFault>> {
-        let s = if spec.internal { -1.0 } else { 1.0 };
+        let s = spec.sign();
         let [z1, z2] = spec.z.map(f64::from);
         if spec.internal && z2 <= z1 {
             return Err(vec![PairFault::RingTeeth]);
@@ -388,10 +439,8 @@ impl Pair {
             return Err(vec![PairFault::RingTip]);
         }
         let (m, alpha_n, beta) = (spec.normal_module, spec.pressure_angle, spec.helix_angle);
-        let module_t = m / beta.cos();
-        let alpha_t = (alpha_n.tan() / beta.cos()).atan();
+        let (module_t, alpha_t, teeth) = spec.transverse();
         let base_helix = (beta.sin() * alpha_n.cos()).asin();
-        let teeth = z2 + s * z1;
         let a = 0.5 * module_t * teeth;
         let axes = Axes::new(spec, alpha_t, teeth, a, involute_pair).map_err(|fault| vec![fault])?;
         let Axes {

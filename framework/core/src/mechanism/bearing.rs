@@ -196,7 +196,7 @@ pub enum ClearanceClass {
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct BearingEntry {
     /// Designation in a bearing catalogue; fills the omitted keys.
-    #[schemars(extend("x-refers-to" = "catalogue"))]
+    #[schemars(extend("x-refers-to" = "catalogue", "x-also-called" = ["type", "name"]))]
     pub designation: Option<String>,
     /// Kind of the bearing.
     pub kind: Option<BearingKind>,

@@ -35,6 +35,7 @@ pub(crate) fn gearing(
 ) -> (Vec<GearSeat>, Vec<MeshSeat>) {
     let mut gearing = Gearing::new(registry, entry, members, memory, found, warnings);
     gearing.check_gears();
+    gearing.found.extend(repeated(entry));
     let (mut meshes, orbits): (Vec<MeshSeat>, Vec<Orbit>) = entry
         .meshes
         .iter()
@@ -53,17 +54,42 @@ pub(crate) fn gearing(
     } = gearing;
     // A mesh with a fault is none of those.
     if found.is_empty() {
-        warnings.extend(without_mate(&gears, &meshes));
+        warnings.extend(without_mate(entry, &meshes));
     }
     (gears, meshes)
 }
 
+/// Reports pairs of gears that are in several meshes.
+fn repeated(entry: &GearboxEntry) -> Vec<Diagnostic> {
+    let pair = |mesh: &MeshEntry| {
+        let mut pair = mesh.gears.clone();
+        pair.sort();
+        pair
+    };
+    let meshes: Vec<(&str, [String; 2])> = entry.meshes.iter().map(|(id, mesh)| (id, pair(mesh))).collect();
+    let repeated = meshes.iter().enumerate().filter_map(|(i, (id, gears))| {
+        let (other, [a, b]) = meshes[..i].iter().find(|(_, earlier)| earlier == gears)?;
+        let message = format!("`{a}` and `{b}` are the gears of `meshes.{other}` already");
+        Some(
+            Diagnostic::error(format!("meshes.{id}.gears"), message)
+                .help("delete one of these meshes, or name other gears"),
+        )
+    });
+    repeated.collect()
+}
+
+/// Ids of gears in no mesh.
+pub(super) fn lone_gears<'a>(entry: &'a GearboxEntry, meshes: &[MeshSeat]) -> Vec<&'a str> {
+    let is_lone = |number: usize| !meshes.iter().any(|mesh| mesh.gears.contains(&number));
+    let ids = entry.gears.ids().enumerate();
+    ids.filter(|(number, _)| is_lone(*number)).map(|(_, id)| id).collect()
+}
+
 /// Reports gears in no mesh.
-fn without_mate(gears: &[GearSeat], meshes: &[MeshSeat]) -> impl Iterator<Item = Diagnostic> {
-    let lone = move |(number, _): &(usize, &GearSeat)| !meshes.iter().any(|mesh| mesh.gears.contains(number));
-    gears.iter().enumerate().filter(lone).map(|(_, gear)| {
-        let message = format!("`{}` meshes with no gear, so it carries no torque", gear.id);
-        Diagnostic::warning(format!("gears.{}", gear.id), message)
+fn without_mate(entry: &GearboxEntry, meshes: &[MeshSeat]) -> impl Iterator<Item = Diagnostic> {
+    lone_gears(entry, meshes).into_iter().map(|id| {
+        let message = format!("`{id}` meshes with no gear, so it carries no torque");
+        Diagnostic::warning(format!("gears.{id}"), message)
             .code(codes::LONE_GEAR)
             .help("add its mesh, or remove the gear if it is none of the gearbox")
     })
@@ -315,6 +341,10 @@ impl<'a> Gearing<'a> {
                 format!("`{}` is a ring gear and is listed first", first.id),
             )
             .help(format!("write gears: [{}, {}]", second.id, first.id))
+        } else if first.member == second.member {
+            let shaft = &self.members.names[first.member];
+            let message = format!("`{}` and `{}` are both on `{shaft}`", first.id, second.id);
+            Diagnostic::error(format!("{path}.gears"), message).help("correct `shaft` of one of them")
         } else {
             return Some(pair);
         };
@@ -418,13 +448,24 @@ impl<'a> Gearing<'a> {
         let pair = match self.memory.repeat(path, *spec, Pair::new) {
             Ok(pair) => pair,
             Err(faults) if schematic && faults.iter().all(PairFault::is_of_teeth) => {
-                self.warnings.extend(plausible::no_involute(path, &faults));
+                let most = self.entry.plausibility.profile_shift;
+                self.warnings.extend(plausible::no_involute(path, spec, &faults, most));
                 let of_pair = |fault: &PairFault| Diagnostic::error(path, fault.to_string());
                 Pair::schematic(spec)
                     .map_err(|faults| self.found.extend(faults.iter().map(of_pair)))
                     .ok()?
             }
             Err(faults) => {
+                let most = self.entry.plausibility.profile_shift;
+                if let Some((message, notes)) = plausible::misfit(spec, &faults, most) {
+                    let error = notes
+                        .into_iter()
+                        .fold(Diagnostic::error(path, message), Diagnostic::note);
+                    self.found.push(error.help(
+                        "correct the centre distance (`axis` of the shafts, or `centre_distance`), the numbers of teeth or the module",
+                    ));
+                    return None;
+                }
                 let ring = &self.entry.gears.0[gears[1]].1;
                 let help =
                     if ring.profile_shift.is_some() && turned(spec).is_some_and(|other| Pair::new(&other).is_ok()) {

@@ -29,11 +29,46 @@ pub fn face_overlap(path: &str, [a, b]: [&GearSeat; 2], overlap: f64, least: f64
     })
 }
 
+/// A centre distance that is the cause of faults of the teeth, because it requires implausible profile shifts: the problem, what follows, and the
+/// teeth that would fit.
+pub fn misfit(spec: &PairSpec, faults: &[PairFault], most: f64) -> Option<(String, Vec<String>)> {
+    let required = spec.required_shifts()?;
+    let stated: f64 = match spec.profile_shift {
+        [Some(_), Some(_)] => return None,
+        shifts => shifts.into_iter().flatten().sum(),
+    };
+    let is_of_distance = |fault: &&PairFault| fault.is_of_teeth() && **fault != PairFault::RingTip;
+    let fault = faults.iter().find(is_of_distance)?;
+    if required.fit.is_some_and(|(_, sum)| (sum - stated).abs() <= most) {
+        return None;
+    }
+    let [distance, reference, least] =
+        [required.centre_distance, required.reference_distance, required.least].map(|x| 1e3 * x);
+    let message = format!(
+        "the centre distance {distance:.4} mm does not fit the teeth: without profile shift they need {reference:.4} mm"
+    );
+    let mut notes = vec![match required.fit {
+        Some((working, sum)) => format!(
+            "{distance:.4} mm needs a sum x1 + x2 of {sum:.2}, with a working pressure angle of {:.1} deg; then {fault}",
+            working.to_degrees()
+        ),
+        None => format!("up to {least:.4} mm the base circles have no line of action"),
+    }];
+    if let Some((teeth, shift)) = fitting_teeth(spec, required.centre_distance) {
+        notes.push(other_teeth(teeth, spec.z[1], shift));
+    }
+    Some((message, notes))
+}
+
 /// Reports teeth that form no involute pair, if no model uses them. An unstated tip diameter of a ring gear is then no fault.
-pub(crate) fn no_involute(path: &str, faults: &[PairFault]) -> Option<Diagnostic> {
+pub(crate) fn no_involute(path: &str, spec: &PairSpec, faults: &[PairFault], most: f64) -> Option<Diagnostic> {
     let fault = faults.iter().find(|fault| **fault != PairFault::RingTip)?;
+    let (message, notes) = misfit(spec, faults, most).unwrap_or_else(|| (fault.to_string(), Vec::new()));
+    let warning = notes
+        .into_iter()
+        .fold(Diagnostic::warning(path, message), Diagnostic::note);
     Some(
-        Diagnostic::warning(path, fault.to_string())
+        warning
             .note("no model uses the tooth geometry, so the pair is treated as pitch circles that roll on each other")
             .help("check the numbers of teeth and the centre distance; a loss model of the mesh requires a valid geometry"),
     )
@@ -64,13 +99,14 @@ pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2], most
         ),
     )
     .help("check the numbers of teeth, the module and the centre distance, or state `profile_shift` of both gears");
-    Some(match fitting_teeth(spec, pair) {
-        Some((teeth, shift)) => warning.note(format!(
-            "with {teeth} teeth instead of {} the second gear would have x2 = {shift:.3}",
-            pair.z[1]
-        )),
+    Some(match fitting_teeth(spec, pair.centre_distance) {
+        Some((teeth, shift)) => warning.note(other_teeth(teeth, pair.z[1], shift)),
         None => warning,
     })
+}
+
+fn other_teeth(teeth: u32, instead_of: u32, shift: f64) -> String {
+    format!("with {teeth} teeth instead of {instead_of} the second gear would have x2 = {shift:.3}")
 }
 
 /// Reports teeth that are pointed, undercut, touch the root of their mate or slide much.
@@ -126,18 +162,18 @@ pub fn teeth(path: &str, pair: &Pair, gears: [&str; 2], ranges: &PlausibilityEnt
     found
 }
 
-/// The number of teeth of the second gear that best matches the centre distance, with its remaining profile shift.
-fn fitting_teeth(spec: &PairSpec, pair: &Pair) -> Option<(u32, f64)> {
-    let module_t = pair.normal_module / pair.helix_angle.cos();
-    let teeth = (2.0 * pair.centre_distance / module_t - pair.sign() * f64::from(pair.z[0])).round();
-    if teeth < 5.0 || teeth == f64::from(pair.z[1]) {
+/// The number of teeth of the second gear that best matches the centre distance in m, with its remaining profile shift.
+fn fitting_teeth(spec: &PairSpec, centre_distance: f64) -> Option<(u32, f64)> {
+    let module_t = spec.normal_module / spec.helix_angle.cos();
+    let teeth = (2.0 * centre_distance / module_t - spec.sign() * f64::from(spec.z[0])).round();
+    if teeth < 5.0 || teeth == f64::from(spec.z[1]) {
         return None;
     }
     let other = Pair::new(&PairSpec {
-        z: [pair.z[0], teeth as u32],
-        centre_distance: Some(pair.centre_distance),
+        z: [spec.z[0], teeth as u32],
+        centre_distance: Some(centre_distance),
         profile_shift: [Some(spec.profile_shift[0].unwrap_or(0.0)), None],
-        tip_diameter: [None, pair.internal.then_some(module_t * (teeth - 2.0))],
+        tip_diameter: [None, spec.internal.then_some(module_t * (teeth - 2.0))],
         root_diameter: [None, None],
         ..*spec
     })

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::case::Cases;
+use super::gearing::lone_gears;
 use super::members::Members;
 use super::seats::MeshSeat;
 use super::transfers::TransferSeat;
@@ -39,6 +40,8 @@ pub struct GearState {
     pub(crate) rows: Vec<RowName>,
     pub(crate) meshes: Vec<MeshRow>,
     pub(crate) shares: Vec<Share>,
+    /// Gears in no mesh, for messages.
+    pub(crate) lone_gears: Vec<String>,
     /// Columns whose speed a rule prescribes, with zero given torque: differences of differentials and of speeds in a ratio.
     pub(crate) equal: Vec<usize>,
     /// Columns that are stationary by rule, with a reaction torque.
@@ -305,6 +308,7 @@ fn all_open(
         rows: Vec::new(),
         meshes: Vec::new(),
         shares: Vec::new(),
+        lone_gears: lone_gears(entry, meshes).into_iter().map(str::to_owned).collect(),
         equal: Vec::new(),
         standing: Vec::new(),
         speed_ports: Vec::new(),
@@ -546,17 +550,22 @@ pub(crate) fn explain(
                 .code(codes::UNDERDETERMINED);
             if among.is_empty() {
                 let standing = columns.first().map(name).unwrap_or_default();
-                error.help(match state.name.as_str() {
-                    ONLY => format!(
+                error.help(match (state.name.as_str(), mesh_of_lone_gears(&state.lone_gears)) {
+                    (_, Some(help)) => help,
+                    (ONLY, None) => format!(
                         "connect it by a mesh, or hold it: `gear_states: {{ drive: {{ engaged: [], standstill: [{standing}] }} }}`"
                     ),
-                    state => format!("engage a coupling, or write `{state}: {{ engaged: [...], standstill: [{standing}] }}`"),
+                    (state, None) => format!("engage a coupling, or write `{state}: {{ engaged: [...], standstill: [{standing}] }}`"),
                 })
             } else {
-                error.help(format!(
+                let speed = format!(
                     "also prescribe the speed of {}",
                     among.iter().map(port).collect::<Vec<_>>().join(" or ")
-                ))
+                );
+                error.help(match mesh_of_lone_gears(&state.lone_gears) {
+                    Some(help) => format!("{help}; otherwise {speed}"),
+                    None => speed,
+                })
             }
         }
         Fault::Tied {
@@ -590,6 +599,18 @@ pub(crate) fn explain(
                 .help(help)
                 .code(codes::OVERDETERMINED)
         }
+    }
+}
+
+/// What to do about gears in no mesh, if there are any.
+fn mesh_of_lone_gears(gears: &[String]) -> Option<String> {
+    match gears {
+        [] => None,
+        [one] => Some(format!("`{one}` has no mesh: add it to `meshes`")),
+        several => Some(format!(
+            "`{}` have no mesh: add theirs to `meshes`",
+            several.join("`, `")
+        )),
     }
 }
 

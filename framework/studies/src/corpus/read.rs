@@ -60,7 +60,10 @@ impl Corpus {
         };
         if all.is_empty() {
             let message = format!("{} contains no set: no folder with `{SOURCE}`", folder.display());
-            return Err(unreadable(message, "name the folder of a corpus, or of one set"));
+            return Err(unreadable(
+                message,
+                "name a gearbox or study file; a folder is checked as a corpus of measured sets",
+            ));
         }
         let (mut sets, mut wrong) = (Vec::new(), Vec::new());
         for folder in all {

@@ -548,7 +548,7 @@ impl Study {
         };
         let cycles: Vec<&str> = self.entry.cycles.ids().collect();
         for cycle in uses.cycles {
-            known(&cycles, "cycles", "duty", cycle);
+            known(&cycles, "cycles", "cycle", cycle);
         }
         if let Some(vehicle) = uses.vehicle {
             let vehicles: Vec<&str> = self.entry.vehicles.ids().collect();

@@ -16,7 +16,11 @@ const CELLS: [usize; 2] = [28, 20];
 const LEAST: f64 = 0.02;
 
 pub fn draw(outcome: &CycleOutcome, page: &mut Page) {
-    bars(outcome, page);
+    match &outcome.cycles[..] {
+        // A single column compares nothing.
+        [only] if only.reference.is_none() => shares(only, page),
+        _ => bars(outcome, page),
+    }
     for duty in &outcome.cycles {
         if !duty.series.is_empty() {
             let cells = Cells::new(duty);
@@ -104,6 +108,31 @@ impl Cells {
             ..self.cloud(title, efficiency)
         }
     }
+}
+
+/// A bar for each share of the loss of one cycle, the largest first.
+fn shares(duty: &DutyOfSet, page: &mut Page) {
+    let mut order: Vec<usize> = (0..duty.shares.len()).collect();
+    order.retain(|share| duty.energies_j[*share] > 0.0);
+    order.sort_by(|a, b| duty.energies_j[*b].total_cmp(&duty.energies_j[*a]));
+    let bar = |share: &usize| {
+        let part = 100.0 * duty.energies_j[*share] / duty.energy.loss_j;
+        let alone = |i: usize| if i == *share { duty.mean_losses_w[i] } else { 0.0 };
+        Bar {
+            label: duty.shares[*share].clone(),
+            shares: (0..duty.shares.len()).map(alone).collect(),
+            above: format!("{} W, {} %", short(duty.mean_losses_w[*share]), short(part)),
+            measured: None,
+            above_measured: String::new(),
+        }
+    };
+    page.report_figure(Figure::Bars {
+        title: format!("Mean loss of {} W over {}", short(duty.mean_loss_w), of_duty(duty)),
+        over: String::new(),
+        height: "mean loss in W".to_owned(),
+        names: duty.shares.clone(),
+        bars: order.iter().map(bar).collect(),
+    });
 }
 
 /// A bar of mean losses by share for each cycle and set, with the reference beside it.

@@ -7,6 +7,9 @@ use crate::names::{SetNames, cycle, share};
 use crate::page::Page;
 use crate::text::{figures, in_brackets, short};
 
+/// Share of the consumption from which missing energy matters; the details state less.
+const NOTICED: f64 = 1e-3;
+
 pub fn add(outcome: &CycleOutcome, page: &mut Page) {
     let mut words = Vec::new();
     let names = SetNames::new(outcome.cycles.iter().map(|duty| duty.model_set.as_str()));
@@ -82,7 +85,7 @@ pub fn add(outcome: &CycleOutcome, page: &mut Page) {
         }
         if let Some(consumption) = &duty.consumption {
             let lacking = consumption.lacking_kwh_per_100_km + consumption.shortfall_kwh_per_100_km;
-            if lacking > 0.0 {
+            if lacking > NOTICED * consumption.consumption_kwh_per_100_km.abs() {
                 page.careful.push(format!(
                     "{of}: the vehicle cannot follow the cycle: it lacks {} kWh/100 km, which its consumption of {} kWh/100 km does not contain",
                     short(lacking),

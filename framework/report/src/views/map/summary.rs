@@ -78,13 +78,22 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
             format!("highest at {}", at(high.1)),
         );
     }
-    let missing = points().filter(|(_, point)| point.loss.is_none()).count();
+    let locked = points().filter(|(_, point)| point.locked).count();
+    if locked > 0 {
+        let count = points().count();
+        page.careful.push(format!(
+            "the drive locks itself at {locked} of {count} points, which have no loss"
+        ));
+    }
+    let missing = points()
+        .filter(|(_, point)| point.loss.is_none() && !point.locked)
+        .count();
     if missing > 0 {
         let points = if missing == 1 { "point has" } else { "points have" };
         page.careful
-            .push(format!("{missing} drawn {points} no power flow or no defined loss"));
+            .push(format!("{missing} {points} no power flow or no defined loss"));
     }
-    words.extend(standstill(outcome));
+    words.splice(0..0, standstill(outcome));
     // Of several maps each states its own in the text.
     let mut gears = outcome.maps.iter().filter_map(best_gears);
     words.extend(gears.next().filter(|_| gears.next().is_none()));
@@ -95,7 +104,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
     page.headline = (!words.is_empty()).then(|| capitalised(&format!("{count}{}", words.join("; "))));
 }
 
-/// The speed up to which no drawn point has a loss, while all faster ones have, as of a drive that locks itself.
+/// The speed up to which no point has a power flow, as of a drive that locks itself, while all faster ones have.
 fn standstill(outcome: &MapOutcome) -> Option<String> {
     let points = || outcome.maps.iter().flat_map(|map| &map.shown.points);
     let speeds = |has_loss: bool| {
@@ -105,9 +114,14 @@ fn standstill(outcome: &MapOutcome) -> Option<String> {
     };
     let fastest = speeds(false).reduce(f64::max)?;
     let slowest = speeds(true).reduce(f64::min)?;
+    let (stands, moves) = if points().all(|point| point.loss.is_some() || point.locked) {
+        ("the drive locks itself", "it moves")
+    } else {
+        ("no point has a power flow", "every one has")
+    };
     (fastest < slowest).then(|| {
         format!(
-            "up to {} rpm no drawn point has a loss, from {} rpm on every one has",
+            "up to {} rpm {stands}, from {} rpm on {moves}",
             short(fastest * RPM),
             short(slowest * RPM)
         )

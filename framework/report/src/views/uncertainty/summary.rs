@@ -7,6 +7,11 @@ use crate::names::quantity;
 use crate::page::Page;
 use crate::text::{extremes, label_of_set, of_set, place, range, short};
 
+/// The greatest correlation that unrelated quantities show in this number of samples with a probability of 95 %, by Fisher's transformation.
+fn greatest_by_chance(samples: f64) -> f64 {
+    (1.96 / (samples - 3.0).max(1.0).sqrt()).tanh()
+}
+
 pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
     let (mut words, mut correlations) = (Vec::new(), Vec::new());
     for set in &outcome.bands {
@@ -40,11 +45,21 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
         }
         let strongest = set.inputs.first();
         if let Some((input, strength)) = strongest.and_then(|i| Some((i, i.correlation_with_mean_loss?))) {
-            let (name, strength) = (quantity(&input.path), short(strength));
             let of = of_set(&set.model_set, outcome.bands.len());
-            correlations.push(format!("{strength} ({name}) {of}").trim_end().to_owned());
-            let detail = format!("of the mean loss with the {name}");
-            page.key_figure(&label("strongest correlation"), strength, "", detail);
+            let chance = greatest_by_chance(set.samples as f64);
+            if strength.abs() > chance {
+                let (name, strength) = (quantity(&input.path), short(strength));
+                correlations.push(format!("{strength} ({name}) {of}").trim_end().to_owned());
+                let detail = format!("of the mean loss with the {name}");
+                page.key_figure(&label("strongest correlation"), strength, "", detail);
+            } else {
+                let samples = set.samples;
+                correlations.push(
+                    format!("within chance for {samples} samples (up to {}) {of}", short(chance))
+                        .trim_end()
+                        .to_owned(),
+                );
+            }
         }
         if set.failed > 0 {
             page.careful

@@ -1,5 +1,6 @@
 //! Data of the points of a map for figures and text, independent of its rows.
 
+use gearloss_framework::flow::Status;
 use gearloss_framework::machine::MachineState;
 
 use super::super::numbers::spread_over;
@@ -33,6 +34,8 @@ pub struct ShownPoint {
     pub loss: Option<f64>,
     /// Loss over the speed of the reference port. \[Nm\]
     pub loss_torque: Option<f64>,
+    /// True if the drive locks itself, so that no load keeps it moving.
+    pub locked: bool,
     /// The usual sums of losses. \[W\]
     pub sums: [f64; 6],
     /// True if a model is outside its stated range.
@@ -52,6 +55,7 @@ impl ShownPoint {
             efficiency,
             loss,
             loss_torque,
+            locked: point.status == Status::SelfLocking,
             sums: of.sums(point),
             outside: point.outside,
             limits: point.limits.clone(),
