@@ -181,14 +181,15 @@ fn last(path: &str) -> &str {
     path.rsplit('.').next().unwrap_or(path)
 }
 
-/// The paths with the fewest levels, of equally near ones the first.
+/// The paths with the fewest levels; none if so many are equally near that they tell nothing, as for `model`.
 fn nearest(paths: &[String]) -> Vec<&str> {
     let fewest = paths.iter().map(|path| levels(path)).min();
-    let near = paths
-        .iter()
-        .map(String::as_str)
-        .filter(|path| Some(levels(path)) == fewest);
-    near.take(PLACES).collect()
+    let mut near: Vec<&str> = paths.iter().map(String::as_str).collect();
+    near.retain(|path| Some(levels(path)) == fewest);
+    if near.len() > PLACES {
+        near.clear();
+    }
+    near
 }
 
 /// Paths of a key in records and lists below a shape, except models, whose keys depend on their `type`.
