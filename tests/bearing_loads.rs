@@ -282,8 +282,8 @@ fn rexs_has_the_ids_units_and_values_of_version_1_7() {
     );
 }
 
-/// A shaft on three bearings: with the stiffness that follows from a load the reactions are those of the same number typed, and less even
-/// than with rigid ones.
+/// A shaft on three bearings: with a stiffness that follows from a load the reactions are those of the same number typed, and less even than
+/// with rigid ones; a bearing that resists to tilting takes a moment and changes all reactions.
 #[test]
 fn a_shaft_on_three_bearings_reacts_to_their_stiffness() {
     let text = std::fs::read_to_string(crate::common::file("tests/cases/fine_oil_from_volume/input.yaml")).unwrap();
@@ -318,7 +318,7 @@ fn a_shaft_on_three_bearings_reacts_to_their_stiffness() {
             let readings = solution.readings(part);
             readings.iter().find(|reading| reading.name == "radial").unwrap().value
         };
-        let stiffness = t.stiffnesses().next().map(|(_, _, stiffness)| stiffness);
+        let stiffness = t.stiffnesses().next().map(|(_, known)| known.value);
         Ok((paths.iter().map(|path| radial(path)).collect(), stiffness))
     };
     let bearing = |keys: &str| format!("right_in: {{ shaft: shaft_in, at: 60 mm, designation: \"6205\"{keys} }}");
@@ -336,12 +336,27 @@ fn a_shaft_on_three_bearings_reacts_to_their_stiffness() {
     );
     let (softer, _) = loads(&bearing(", radial_stiffness: { at_load: 50 N }")).unwrap();
     assert!(softer[1] < soft[1]);
-    let refused = loads(
-        "right_in: { shaft: shaft_in, at: 60 mm, kind: spherical_roller, bore: 25 mm, outside: 52 mm, model: none, radial_stiffness: { at_load: 500 N } }",
-    );
-    let message = refused.unwrap_err();
+    let rollers =
+        |keys: &str| format!("right_in: {{ shaft: shaft_in, at: 60 mm, designation: \"NU205\", model: none{keys} }}");
+    let (yielding, _) = loads(&rollers("")).unwrap();
+    let (tilting, stiffness) = loads(&rollers(", tilting_stiffness: { at_load: 500 N }")).unwrap();
+    let typed = stiffness.unwrap();
+    let (same, _) = loads(&rollers(&format!(", tilting_stiffness: {typed} Nm/rad"))).unwrap();
+    for (tilting, same) in tilting.iter().zip(&same) {
+        assert!((tilting / same - 1.0).abs() < 1e-12, "{tilting} {same}");
+    }
     assert!(
-        message.contains("E0315") && message.contains("this kind of bearing"),
-        "{message}"
+        (tilting[0] / yielding[0] - 1.0).abs() > 1e-3,
+        "{tilting:?} {yielding:?}"
     );
+    for key in ["radial_stiffness", "tilting_stiffness"] {
+        let refused = loads(&format!(
+            "right_in: {{ shaft: shaft_in, at: 60 mm, kind: spherical_roller, bore: 25 mm, outside: 52 mm, model: none, {key}: {{ at_load: 500 N }} }}"
+        ));
+        let message = refused.unwrap_err();
+        assert!(
+            message.contains("E0315") && message.contains("this kind of bearing") && message.contains(key),
+            "{message}"
+        );
+    }
 }

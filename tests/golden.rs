@@ -26,6 +26,7 @@ const SEVERAL: [&str; 15] = [
     "oil_network_faults",
     "out_of_range",
     "over_determined",
+    "flow_of_jets_faults",
     "plain_bearing_faults",
     "two_locating_bearings",
 ];

@@ -19,7 +19,8 @@ pub use common::Common;
 pub use member::{MemberPlace, MemberSite, OnMember};
 pub use preload::{BodyMaterial, PreloadBody, PreloadEntry};
 pub use support::{
-    Axial, Factor, FactorOver, RadialStiffness, StiffnessLoad, Support, SupportPlace, SupportSeat, SupportSite,
+    Axial, Factor, FactorOver, RadialStiffness, StatedStiffness, Stiffness, StiffnessLoad, Support, SupportPlace,
+    SupportSeat, SupportSite, TiltingStiffness,
 };
 
 use crate::codes;

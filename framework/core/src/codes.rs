@@ -69,7 +69,7 @@ gearloss_document::codes! {
         cause: "The inside of the housing is not a polygon, gears reach out of it, or it holds less oil than is filled.",
         help: "Correct `housing.inside` or the volume of the oil.";
     NO_STIFFNESS = "E0315", "stiffness of a bearing is not known",
-        cause: "`radial_stiffness` of a bearing states a load, but the loads of its rolling elements are not calculated or do not carry it.",
+        cause: "`radial_stiffness` or `tilting_stiffness` of a bearing states a load, but the loads of its rolling elements are not calculated or do not carry it.",
         help: "State the stiffness as a number, or the inside of the bearing under `internal`.";
     AXES = "E0320", "axes do not fit each other",
         cause: "The axes of two gears in mesh, of both members of a bearing or of a planetary set are not parallel or do not cross as they have to.",

@@ -39,7 +39,7 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
-use crate::attach::Attach;
+use crate::attach::{Attach, Stiffness};
 use crate::document::Unit;
 use crate::loads::{AngularRow, Carries, Induced, StaticRating};
 use crate::loss::{Loss, Notes, Term, Undefined};
@@ -211,11 +211,11 @@ pub trait Component: Mechanism<Answer = Loss> {
     fn angular_row(_part: &Self::Part) -> Result<AngularRow, Cow<'static, str>> {
         Err("it is no rolling bearing".into())
     }
-    /// Radial stiffness of a part under a radial load; an error says why this is not known. \[N and N/m\]
+    /// A stiffness of a part under a radial load (N); an error says why this is not known.
     ///
     /// # Errors
     /// If the part has no load distribution.
-    fn radial_stiffness(_part: &Self::Part, _load: f64) -> Result<f64, Cow<'static, str>> {
+    fn stiffness(_part: &Self::Part, _stiffness: Stiffness, _load: f64) -> Result<f64, Cow<'static, str>> {
         Err("it is no rolling bearing".into())
     }
     /// Radius of the lowest point over which the oil height at the place of a part matters to its context; `None` if it does not. \[m\]

@@ -6,12 +6,13 @@
 //!
 //! The outer ring is at rest. A displacement of the inner ring, and the load that causes it, have five [`Axes`]: one axial, two radial, two
 //! tilts in the planes of the radial ones. A [`Row`] of elements gives the force at a displacement, and [`balance`] finds the displacement at a
-//! load: of [`Balls`], of [`Balls::at_speed`] and of [`Rollers`]. Lengths in m, forces in N, angles and tilts in rad.
+//! load: of [`Balls`] and of [`Rollers`]; [`Balls::balance_at_speed`] does at high speed. Lengths in m, forces in N, angles and tilts in rad.
 //!
 //! All of this is in `f64`: the number of steps of an equilibrium differs from point to point, so that lanes would not agree. [`AxialRow`] has the
 //! axial displacement of very many elements, for any numbers. Nothing allocates after a row is built.
 
 mod axial_row;
+mod balance_at_speed;
 mod balls;
 mod elliptic;
 mod equilibrium;

@@ -59,6 +59,7 @@ pub use planet_sharing::PlanetShares;
 pub(crate) use planet_sharing::{MeshSharing, Sharing};
 pub(crate) use transfers::{Transfer, TransferLaw};
 
+use crate::attach::Stiffness;
 use crate::description::{RatingEntry, ThermalMode};
 use crate::document::Diagnostic;
 use crate::hydraulics::Hydraulics;
@@ -86,6 +87,19 @@ pub enum PartKind {
     Drag(usize),
     /// A chain, a joint or a differential with friction; its number.
     Transfer(usize),
+}
+
+/// A stiffness of a bearing that follows from a load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StiffnessAtLoad {
+    /// Number of the support.
+    pub(crate) support: usize,
+    /// Which stiffness.
+    pub stiffness: Stiffness,
+    /// The radial load. \[N\]
+    pub load: f64,
+    /// The stiffness. \[N/m, Nm/rad\]
+    pub value: f64,
 }
 
 /// One part with a power loss.
@@ -277,8 +291,8 @@ pub struct Transmission {
     pub(crate) rated: Vec<RatedSupport>,
     /// Opposed bearings that load each other.
     pub(crate) pairs: Vec<BearingPair>,
-    /// Number of each support whose radial stiffness follows from a load, with both. \[N and N/m\]
-    pub(crate) stiffnesses: Vec<(usize, f64, f64)>,
+    /// Each stiffness of a support that follows from a load.
+    pub(crate) stiffnesses: Vec<StiffnessAtLoad>,
     pub(crate) oils: Oils,
     pub(crate) hydraulics: Hydraulics,
     pub(crate) loads: Arc<ShaftLoads>,
@@ -385,10 +399,10 @@ impl Transmission {
     pub fn pairs(&self) -> &[BearingPair] {
         &self.pairs
     }
-    /// Path of each bearing whose radial stiffness follows from a load, with both. \[N and N/m\]
-    pub fn stiffnesses(&self) -> impl Iterator<Item = (&str, f64, f64)> {
+    /// Each stiffness of a bearing that follows from a load, with the path of the bearing.
+    pub fn stiffnesses(&self) -> impl Iterator<Item = (&str, StiffnessAtLoad)> {
         let each = self.stiffnesses.iter();
-        each.map(|(support, load, stiffness)| (self.supports[*support].as_str(), *load, *stiffness))
+        each.map(|known| (self.supports[known.support].as_str(), *known))
     }
     /// Cells of notes of limits, each with a component that uses the model; those of a bearing's static safety and spring with the
     /// bearing.

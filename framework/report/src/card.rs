@@ -1,5 +1,6 @@
 //! Key data of a gearbox: its stages and teeth, its bearings and their pairs, the ratio of each gear, its oil.
 
+use gearloss_framework::attach::Stiffness;
 use gearloss_framework::geometry::Holding;
 use gearloss_framework::mechanism::worm_mesh::{AtRest, WormPart};
 use gearloss_framework::transmission::{ChainStage, CrossedStage, Stage, Transmission};
@@ -40,12 +41,19 @@ pub fn card(checked: &CheckedGearbox) -> String {
         text.push_str(&pair.sentence());
         text.push('\n');
     }
-    for (bearing, load, stiffness) in transmission.stiffnesses() {
-        let [stiffness, moved] = [1e-6 * stiffness, 1e6 * load / stiffness].map(short);
-        text.push_str(&format!(
-            "{bearing}: radial stiffness {stiffness} N/um at {} N ({moved} um)\n",
-            significant(load)
-        ));
+    for (bearing, known) in transmission.stiffnesses() {
+        let (load, value) = (significant(known.load), known.value);
+        let line = match known.stiffness {
+            Stiffness::Radial => {
+                let [stiffness, moved] = [1e-6 * value, 1e6 * known.load / value].map(short);
+                format!("{bearing}: radial stiffness {stiffness} N/um at {load} N ({moved} um)\n")
+            }
+            Stiffness::Tilting => format!(
+                "{bearing}: tilting stiffness {} Nm/mrad at {load} N\n",
+                short(1e-3 * value)
+            ),
+        };
+        text.push_str(&line);
     }
     text.push_str(&ratio_lines(transmission));
     if let Some((volume, mass)) = transmission.oil_fill() {

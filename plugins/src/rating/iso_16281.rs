@@ -26,7 +26,7 @@ use gearloss_framework::rolling::{Axes, BallGeometry, BallLoad, Balls, Equilibri
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::bearing::contact::{ESTIMATED, FAST};
+use crate::bearing::contact::{ESTIMATED, FAST, GREATEST_ANGLE};
 
 use super::at_least_unless_zero;
 
@@ -219,10 +219,10 @@ fn of_rollers(rollers: &Rollers, found: &Equilibrium, rotating: Rotating) -> Dis
 impl Prepared {
     /// The equilibrium of the inner ring and what follows from it; `None` if there is none.
     fn distribution(&self, elements: &Elements, at: &BearingAt<'_>) -> Option<Distribution> {
-        let tilted = |given: Axes<Given>| {
+        let tilted = |given: Axes<Given>, arm: f64| {
             if at.tilting > 0.0 {
                 at.branch("the tilting moment is in the plane of the radial load");
-                given.with_moment(at.tilting)
+                given.with_moment(at.tilting + at.radial * arm)
             } else {
                 given.with_tilt(self.params.misalignment)
             }
@@ -240,13 +240,17 @@ impl Prepared {
                 if axial < at.radial * balls.geometry().contact_angle.tan() {
                     return None;
                 }
-                let given = tilted(Axes::loaded(axial, at.radial));
+                let given = tilted(Axes::loaded(axial, at.radial), balls.pressure_centre());
                 let factor = at.speed.rpm().abs() * (1e3 * balls.geometry().pitch_diameter);
                 if factor > self.params.inertia_from && rotating == Rotating::Inner {
                     at.branch("balls with centrifugal force and gyroscopic moment");
+                    let found = balls.balance_at_speed(at.speed.abs(), &given).ok()?;
                     let row = balls.at_speed(at.speed);
-                    let found = balance(&row, &given).ok()?;
-                    let loads = row.loads(&found.displacement).map(|ball| ball.contacts).collect();
+                    let loads: Vec<BallLoad> = row.loads(&found.displacement).map(|ball| ball.contacts).collect();
+                    let is_steep = |ball: &BallLoad| ball.load[0] > 0.0 && ball.angle[0].to_degrees() > GREATEST_ANGLE;
+                    if loads.iter().any(is_steep) {
+                        at.branch("balls that centrifugal force holds on the outer ring run over the shoulder of the inner one");
+                    }
                     Some(of_balls(balls, &found, rotating, loads))
                 } else {
                     let found = balance(balls, &given).ok()?;
@@ -263,7 +267,8 @@ impl Prepared {
                     }
                     0.0
                 };
-                let found = balance(rollers, &tilted(Axes::loaded(axial, at.radial))).ok()?;
+                let given = tilted(Axes::loaded(axial, at.radial), rollers.pressure_centre());
+                let found = balance(rollers, &given).ok()?;
                 Some(of_rollers(rollers, &found, rotating))
             }
         }

@@ -44,12 +44,12 @@ pub struct SupportPlace {
     /// The bearing takes the tilting moment of a shaft that it supports alone.
     #[serde(default)]
     pub takes_moment: bool,
-    /// Radial stiffness; default: rigid. Used if more than two bearings support the shaft: a number, or a load at which it follows from the
-    /// rolling elements.
+    /// Radial stiffness; default: rigid. A number, or a load at which it follows from the rolling elements. The loads of two bearings do not
+    /// depend on it, unless they have a tilting stiffness; those of more bearings and the misalignment of gears do.
     pub radial_stiffness: Option<RadialStiffness>,
-    /// Tilting stiffness; default: none. Used if more than two bearings support the shaft. [Nm/rad]
-    #[schemars(range(min = 1.0, max = 1e9))]
-    pub tilting_stiffness: Option<f64>,
+    /// Tilting stiffness; default: none. A number, or a load at which it follows from the rolling elements. A shaft on several bearings, of which
+    /// one has it, needs `sections`.
+    pub tilting_stiffness: Option<TiltingStiffness>,
     /// Oil height above the axis, if the bearing has a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]
     pub level: Option<f64>,
@@ -119,17 +119,74 @@ impl Default for Factor {
 pub enum RadialStiffness {
     /// One stiffness. [N/mm]
     Constant(#[schemars(range(min = 1.0, max = 1e9))] f64),
-    /// From the load distribution of the rolling elements.
+    /// From the load distribution of the rolling elements: the load over the displacement that it causes.
     At(StiffnessLoad),
 }
 
-/// The load at which a bearing has its stiffness: the load over the displacement that it causes, with the clearance in operation and a ring
-/// that does not tilt. A bearing with a contact angle also has the axial load that loads half of its elements.
+/// Tilting stiffness of a bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum TiltingStiffness {
+    /// One stiffness. [Nm/rad]
+    Constant(#[schemars(range(min = 1.0, max = 1e9))] f64),
+    /// From the load distribution of the rolling elements: the moment of a small tilt in the plane of the load, which stays.
+    At(StiffnessLoad),
+}
+
+/// The load at which a bearing has a stiffness, with the clearance in operation and a ring that does not tilt. A bearing with a contact angle
+/// also has the axial load that loads half of its elements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StiffnessLoad {
     /// Radial load. [N]
     #[schemars(range(min = 1.0, max = 1e8))]
     pub at_load: f64,
+}
+
+/// A stiffness of a bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stiffness {
+    /// A radial load over the displacement that it causes. \[N/m\]
+    Radial,
+    /// A moment over the tilt that it causes. \[Nm/rad\]
+    Tilting,
+}
+
+impl Stiffness {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Radial, Self::Tilting];
+
+    /// Key of a support that states it.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Radial => "radial_stiffness",
+            Self::Tilting => "tilting_stiffness",
+        }
+    }
+}
+
+/// How the stiffness of a bearing is stated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StatedStiffness {
+    /// As a number. \[N/m, Nm/rad\]
+    Constant(f64),
+    /// By a load. \[N\]
+    At(f64),
+}
+
+impl SupportPlace {
+    /// A stiffness as stated.
+    pub fn stated(&self, stiffness: Stiffness) -> Option<StatedStiffness> {
+        Some(match stiffness {
+            Stiffness::Radial => match self.radial_stiffness? {
+                RadialStiffness::Constant(value) => StatedStiffness::Constant(value),
+                RadialStiffness::At(load) => StatedStiffness::At(load.at_load),
+            },
+            Stiffness::Tilting => match self.tilting_stiffness? {
+                TiltingStiffness::Constant(value) => StatedStiffness::Constant(value),
+                TiltingStiffness::At(load) => StatedStiffness::At(load.at_load),
+            },
+        })
+    }
 }
 
 /// Factors over the magnitude of a port's torque, linear in between, constant beyond the ends.

@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::attach::{Support, SupportSite};
+use crate::attach::{Stiffness, Support, SupportSite};
 use crate::loads::{AngularRow, Carries, Induced, StaticFactors, StaticRating, Thrust};
 use crate::loss::{Loss, Notes, Term, Undefined};
 use crate::maker::bare;
@@ -579,7 +579,7 @@ context! {
         /// Axial load. [N]
         axial: 300.0 in 0.0..=50000.0 from "the bearings of the shaft that take its thrust, with preload and the induced thrust of pairs, times `axial_factor`",
         /// Tilting moment. [Nm]
-        tilting: 0.0 in 0.0..=1000.0 from "statics of a shaft supported by this bearing alone",
+        tilting: 0.0 in 0.0..=1000.0 from "statics of a shaft supported by this bearing alone, or on bearings with a tilting stiffness",
         /// Temperature of the oil at the bearing. [degC]
         temperature: 80.0 in -40.0..=200.0 from "the oil of the component: given, balanced or a node of the network, and `temperature_offset`",
         /// Kinematic viscosity of the oil at the bearing. [mm2/s]
@@ -673,8 +673,8 @@ impl Component for Bearing {
         part.angular_row()
     }
 
-    fn radial_stiffness(part: &BearingPart, load: f64) -> Result<f64, Cow<'static, str>> {
-        part.rolling_elements()?.radial_stiffness(load)
+    fn stiffness(part: &BearingPart, stiffness: Stiffness, load: f64) -> Result<f64, Cow<'static, str>> {
+        part.rolling_elements()?.stiffness(stiffness, load)
     }
 
     fn lowest(part: &BearingPart) -> Option<f64> {

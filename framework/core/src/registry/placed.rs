@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use super::build::Build;
 use super::{Entry, from_resolved};
-use crate::attach::{Attach, Common, Level, Names, Spot, State};
+use crate::attach::{Attach, Common, Level, Names, Spot, State, Stiffness};
 use crate::document::Diagnostic;
 use crate::evaluate::{Reading, readings};
 use crate::loads::{AngularRow, Carries, Induced, StaticRating};
@@ -70,11 +70,11 @@ pub trait Placed: sealed::Sealed + Send + Sync {
     fn angular_row(&self) -> Result<AngularRow, Cow<'static, str>> {
         Err("it carries no load".into())
     }
-    /// Its radial stiffness under a radial load. \[N and N/m\]
+    /// One of its stiffnesses under a radial load. \[N\]
     ///
     /// # Errors
     /// Why this is not known.
-    fn radial_stiffness(&self, _load: f64) -> Result<f64, Cow<'static, str>> {
+    fn stiffness(&self, _stiffness: Stiffness, _load: f64) -> Result<f64, Cow<'static, str>> {
         Err("it carries no load".into())
     }
     /// Number of its oil, if it has one only.
@@ -185,8 +185,8 @@ impl<C: Component> Placed for PlacedAs<C> {
     fn angular_row(&self) -> Result<AngularRow, Cow<'static, str>> {
         C::angular_row(&self.part)
     }
-    fn radial_stiffness(&self, load: f64) -> Result<f64, Cow<'static, str>> {
-        C::radial_stiffness(&self.part, load)
+    fn stiffness(&self, stiffness: Stiffness, load: f64) -> Result<f64, Cow<'static, str>> {
+        C::stiffness(&self.part, stiffness, load)
     }
     fn oil(&self) -> Option<u16> {
         Some(self.spot.oil)

@@ -126,15 +126,30 @@ impl Balls {
         self.stiffness
     }
 
+    /// Distance of the pressure centre, in which a radial load does not tilt the ring, from the middle of the row along the axis. \[m\]
+    pub fn pressure_centre(&self) -> f64 {
+        self.radius * self.geometry.contact_angle.tan()
+    }
+
     /// From the centre of the outer groove to that of the inner groove at a displacement in the plane of a ball: axial, radial. \[m\]
     pub(super) fn centres(&self, [axial, radial, tilt]: [f64; 3]) -> [f64; 2] {
         [self.centre[0] + axial + tilt, self.centre[1] + radial]
     }
 
-    /// The distance of these centres and by how much it exceeds A, without the cancellation of a difference. \[m\]
+    /// Direction of the contacts, of any length.
+    pub(super) fn toward(&self, displacement: [f64; 3]) -> [f64; 2] {
+        let [axial, radial] = self.centres(displacement);
+        [axial, radial.max(0.0)]
+    }
+
+    /// The distance of these centres, over which the contact turns, and by how much it exceeds A, without the cancellation of a difference. Beyond
+    /// a quarter turn the walls of the grooves are taken as straight, so that the approach stays a convex function. \[m\]
     pub(super) fn approach(&self, [axial, radial, tilt]: [f64; 3]) -> [f64; 2] {
         let moved = [axial + tilt, radial];
         let [y, x] = [self.centre[0] + moved[0], self.centre[1] + moved[1]];
+        if x <= 0.0 {
+            return [f64::INFINITY, y.abs() - self.geometry.groove_distance()];
+        }
         let distance = x.hypot(y);
         let along = self.centre[0] * moved[0] + self.centre[1] * moved[1];
         let excess = 2.0 * along + moved[0] * moved[0] + moved[1] * moved[1] + self.excess;
@@ -146,7 +161,7 @@ impl Balls {
         let displacement = *displacement;
         (0..self.directions.len()).map(move |ball| {
             let plane = self.in_plane(ball, &displacement);
-            let [axial, radial] = self.centres(plane);
+            let [axial, radial] = self.toward(plane);
             let load = self.stiffness * self.approach(plane)[1].max(0.0).powf(1.5);
             BallLoad {
                 load: [load; 2],
@@ -209,7 +224,12 @@ impl Row for Balls {
         if approach <= 0.0 {
             return LocalForce::default();
         }
-        let [axial, radial] = self.centres(displacement).map(|part| part / distance);
+        let toward = self.toward(displacement);
+        let [axial, radial] = if distance.is_finite() {
+            toward.map(|part| part / distance)
+        } else {
+            [toward[0].signum(), 0.0]
+        };
         let slope = 1.5 * self.stiffness * approach.sqrt();
         let load = slope * approach / 1.5;
         let k = along([axial, radial], load, slope, distance);

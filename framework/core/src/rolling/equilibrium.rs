@@ -94,7 +94,7 @@ pub struct LocalForce {
     pub force: [f64; 3],
     /// Its derivatives.
     pub stiffness: [[f64; 3]; 3],
-    /// Load of the element. \[N\]
+    /// Greatest load of the element on a ring. \[N\]
     pub load: f64,
 }
 
@@ -135,6 +135,8 @@ pub struct Equilibrium {
     pub residual: f64,
     /// Compliance in the directions whose load is given, with tilts as displacements at the radius. \[m/N\]
     compliance: Matrix,
+    /// The radius of the row. \[m\]
+    radius: f64,
 }
 
 impl Equilibrium {
@@ -147,6 +149,11 @@ impl Equilibrium {
     /// The same in the direction of y. \[N/m\]
     pub fn radial_stiffness(&self) -> Option<f64> {
         self.stiffness(1)
+    }
+
+    /// The same against a tilt in the plane of y. \[Nm/rad\]
+    pub fn tilting_stiffness(&self) -> Option<f64> {
+        self.stiffness(3).map(|stiffness| stiffness * self.radius * self.radius)
     }
 
     fn stiffness(&self, axis: usize) -> Option<f64> {
@@ -216,17 +223,22 @@ impl Problem {
         Vector::from_fn(|i, _| if self.is_held[i] { 0.0 } else { force[i] - self.load[i] })
     }
 
-    /// Stiffness in the directions that are not held, with a small share on the diagonal that makes it definite, and its factors.
+    /// Stiffness in the directions that are not held.
+    fn free(&self, stiffness: &Matrix) -> Matrix {
+        Matrix::from_fn(|i, j| match (self.is_held[i] || self.is_held[j], i == j) {
+            (false, _) => stiffness[(i, j)],
+            (true, true) => 1.0,
+            (true, false) => 0.0,
+        })
+    }
+
+    /// The same with a small share on the diagonal that makes it definite, and its factors.
     fn definite(
         &self,
         stiffness: &Matrix,
         least: f64,
     ) -> Result<(Matrix, nalgebra::Cholesky<f64, nalgebra::Const<5>>), Unbalanced> {
-        let free = Matrix::from_fn(|i, j| match (self.is_held[i] || self.is_held[j], i == j) {
-            (false, _) => stiffness[(i, j)],
-            (true, true) => 1.0,
-            (true, false) => 0.0,
-        });
+        let free = self.free(stiffness);
         let size = (0..5).map(|i| stiffness[(i, i)]).fold(0.0_f64, f64::max);
         let mut shift = least.max(1e-13 * size);
         while shift.is_finite() {
@@ -238,6 +250,47 @@ impl Problem {
         }
         // Overflow.
         Err(Unbalanced)
+    }
+
+    /// Follows the residual itself downhill, where inertia makes the stiffness unsymmetric and the search by energy ends (Levenberg and Marquardt):
+    /// the smallest residual, its displacement and the forces there.
+    fn correct(&self, row: &impl Row, mut u: Vector, mut at: Reaction) -> (f64, Vector, Reaction) {
+        let mut off = self.residual(&at.force);
+        let mut damping = 1e-3;
+        for _ in 0..STEPS {
+            if off.amax() <= self.wanted(&at) || !(off.sum() + at.stiffness.sum()).is_finite() {
+                break;
+            }
+            let slopes = self.free(&at.stiffness);
+            let square = slopes.transpose() * slopes;
+            let size = (0..5).map(|i| square[(i, i)]).fold(0.0_f64, f64::max);
+            let damped = square + Matrix::identity() * (damping * size);
+            let step = nalgebra::Cholesky::new(damped).map(|factors| factors.solve(&-(slopes.transpose() * off)));
+            let moved = step.map(|step| {
+                let next = u + step;
+                (next, reaction(row, &next))
+            });
+            match moved {
+                Some((next, reached)) if self.residual(&reached.force).norm() < off.norm() => {
+                    (u, at) = (next, reached);
+                    off = self.residual(&at.force);
+                    damping *= 0.1;
+                }
+                _ if damping > 1e12 => break,
+                _ => damping = 5.0 * damping.max(1e-18),
+            }
+        }
+        (off.amax(), u, at)
+    }
+
+    /// The residual at which a search ends. \[N\]
+    fn wanted(&self, at: &Reaction) -> f64 {
+        (ROUNDING * at.loads).max(WANTED * self.load.amax())
+    }
+
+    /// The largest residual of an equilibrium. \[N\]
+    fn accepted(&self, at: &Reaction) -> f64 {
+        (10.0 * ROUNDING * at.loads).max(ACCEPTED * self.load.amax())
     }
 
     /// The inverse of this stiffness.
@@ -274,7 +327,7 @@ pub fn balance(row: &impl Row, given: &Axes<Given>) -> Result<Equilibrium, Unbal
 /// # Errors
 /// As [`balance`].
 pub fn balance_from(row: &impl Row, given: &Axes<Given>, start: &Axes<f64>) -> Result<Equilibrium, Unbalanced> {
-    search(row, given, Some(start))
+    search(row, given, Some(start)).or_else(|_| search(row, given, None))
 }
 
 fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Result<Equilibrium, Unbalanced> {
@@ -325,8 +378,7 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
         if size < best.0 {
             best = (size, u, at);
         }
-        let rounding = ROUNDING * at.loads;
-        if size <= rounding.max(WANTED * applied) {
+        if size <= problem.wanted(&at) {
             break;
         }
         let mut step = problem.step(&at.stiffness, 1e-6 * size / reach, &off)?;
@@ -360,9 +412,11 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
         }
         (u, at, off) = (next, reached, residual);
     }
+    if best.0 > problem.accepted(&best.2) {
+        best = problem.correct(row, best.1, best.2);
+    }
     let (residual, u, at) = best;
-    let is_balanced = residual <= (ACCEPTED * applied).max(10.0 * ROUNDING * at.loads);
-    if !(is_balanced && at.stiffness.sum().is_finite()) {
+    if !(residual <= problem.accepted(&at) && at.stiffness.sum().is_finite()) {
         return Err(Unbalanced);
     }
     let scaled =
@@ -376,5 +430,6 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
         load: scaled(&at.force, |x, length| x * length),
         residual,
         compliance,
+        radius,
     })
 }

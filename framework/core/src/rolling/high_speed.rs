@@ -47,7 +47,7 @@ pub struct BallAtSpeed {
     pub motion: BallMotion,
 }
 
-/// A contact between a ball and a groove: direction from the centre of the groove, distance, load and its slope.
+/// A contact between a ball and a groove: direction from the centre of the groove, distance over which it turns, load and its slope.
 #[derive(Clone, Copy)]
 struct GrooveContact {
     direction: [f64; 2],
@@ -73,6 +73,7 @@ impl GrooveContact {
 }
 
 /// Both contacts of a ball that is in equilibrium.
+#[derive(Clone, Copy)]
 struct Settled {
     contacts: [GrooveContact; 2],
     /// Forces of inertia, and their changes with the angles of the inner and of the outer contact. \[N, N/rad\]
@@ -116,6 +117,23 @@ fn norm([x, y]: [f64; 2]) -> f64 {
 fn solve([[a, b], [c, d]]: Matrix, [x, y]: [f64; 2]) -> [f64; 2] {
     let determinant = a * d - b * c;
     [(d * x - b * y) / determinant, (a * y - c * x) / determinant]
+}
+
+fn dot([a, b]: [f64; 2], [x, y]: [f64; 2]) -> f64 {
+    a * x + b * y
+}
+
+/// Newton's step; with a share of stiffness added where it does not resist, as to a ball that touches nothing.
+fn downhill(stiffness: Matrix, off: [f64; 2], least: f64) -> [f64; 2] {
+    let [[a, b], [c, d]] = stiffness;
+    let mean = 0.5 * (b + c);
+    if a > 0.0 && a * d - mean * mean > 1e-12 * a * a {
+        return solve(stiffness, off);
+    }
+    // The least eigenvalue of the symmetric part.
+    let lowest = 0.5 * (a + d) - (0.25 * (a - d) * (a - d) + mean * mean).sqrt();
+    let shift = least - lowest.min(0.0);
+    solve([[a + shift, b], [c, d + shift]], off)
 }
 
 /// Friction of the gyroscopic moment over the centrifugal force and the sine of the outer contact angle: 2/D times m D^2/10 times d_m/D over m d_m/2.
@@ -208,14 +226,16 @@ impl BallsAtSpeed<'_> {
     }
 
     fn groove_contact(&self, ring: usize, to_ball: [f64; 2]) -> GrooveContact {
-        let distance = (to_ball[0] * to_ball[0] + to_ball[1] * to_ball[1])
-            .sqrt()
-            .max(f64::MIN_POSITIVE);
+        let [along, across] = to_ball;
+        // Beyond a quarter turn the wall of the groove is taken as straight, so that a ball on the far side of its centre does not touch it.
+        let is_round = across > 0.0;
+        let reached = [along, if is_round { across } else { 0.0 }];
+        let distance = norm(reached).max(f64::MIN_POSITIVE);
         let approach = (distance - self.free_distance(ring)).max(0.0);
         let slope = 1.5 * self.balls.contacts()[ring].stiffness() * approach.sqrt();
         GrooveContact {
-            direction: to_ball.map(|part| part / distance),
-            distance,
+            direction: reached.map(|part| part / distance),
+            distance: if is_round { distance } else { f64::INFINITY },
             load: slope * approach / 1.5,
             slope,
         }
@@ -232,7 +252,7 @@ impl BallsAtSpeed<'_> {
     fn thrown(&self, centrifugal: f64, centres: [f64; 2]) -> [f64; 2] {
         let [inner, outer] = [0, 1].map(|ring| self.distance_under(ring, centrifugal));
         let bottom = [0.0, outer];
-        if norm([centres[0], centres[1] - outer]) <= self.free_distance(0) {
+        if norm([centres[0], (centres[1] - outer).max(0.0)]) <= self.free_distance(0) {
             return bottom;
         }
         // The corner of both circles that is further outwards.
@@ -246,11 +266,13 @@ impl BallsAtSpeed<'_> {
     /// The place of a ball between the centres of the grooves, at a displacement in its plane: `None` if it touches nothing.
     fn settle(&self, displacement: [f64; 3]) -> Option<Settled> {
         let centres = self.balls.centres(displacement);
-        let [distance, approach] = self.balls.approach(displacement);
+        let [_, approach] = self.balls.approach(displacement);
         if approach <= 0.0 && self.speed == 0.0 {
             return None;
         }
-        let toward = centres.map(|part| part / distance.max(f64::MIN_POSITIVE));
+        let toward = self.balls.toward(displacement);
+        let length = toward[0].hypot(toward[1]).max(f64::MIN_POSITIVE);
+        let toward = toward.map(|part| part / length);
         let load = self.balls.stiffness() * approach.max(0.0).powf(1.5);
         let centrifugal = self.centrifugal(self.orbital(toward, toward));
         let mut place = if load > centrifugal {
@@ -259,36 +281,42 @@ impl BallsAtSpeed<'_> {
             self.thrown(centrifugal, centres)
         };
         let mut at = self.at(place, centres);
+        let mut best = (f64::INFINITY, at);
+        // The contacts store energy that is a convex function of the place, so that steps downhill find the only rest.
+        let reach = 0.1 * (self.free_distance(0) + self.free_distance(1));
         for _ in 0..STEPS {
             let off = at.off();
             let size = norm(off);
+            if size < best.0 {
+                best = (size, at);
+            }
             let forces = at.contacts[0].load + at.contacts[1].load + at.centrifugal;
             if size <= 1e-14 * forces {
                 break;
             }
-            let step = solve(at.stiffness()[0], off);
-            if !(step[0].is_finite() && step[1].is_finite()) {
+            let step = downhill(at.stiffness()[0], off, size / reach);
+            let length = norm(step);
+            if !length.is_finite() {
                 break;
             }
+            let step = step.map(|part| part * (reach / length).min(1.0));
+            let slope = dot(off, step);
             let mut share = 1.0;
             let (next, reached) = loop {
                 let next = [place[0] + share * step[0], place[1] + share * step[1]];
                 let reached = self.at(next, centres);
-                if norm(reached.off()) < size || share < 1e-3 {
+                if dot(reached.off(), step) >= -0.25 * slope || share < 1e-9 {
                     break (next, reached);
-                }
-                // Rounding.
-                if size <= 1e-12 * forces {
-                    return Some(at);
                 }
                 share *= 0.5;
             };
-            if next == place {
+            // Rounding.
+            if next == place || (size <= 1e-12 * forces && norm(reached.off()) >= size) {
                 break;
             }
             (place, at) = (next, reached);
         }
-        Some(at)
+        Some(best.1)
     }
 
     /// The balls in their order at a displacement of the inner ring; a ball that touches nothing has no motion.
@@ -329,7 +357,8 @@ impl Row for BallsAtSpeed<'_> {
         let columns = [0, 1].map(|j| solve(both, [moved[0][j], moved[1][j]]));
         let k = [0, 1]
             .map(|i| [0, 1].map(|j| of_inner[i][j] - of_inner[i][0] * columns[j][0] - of_inner[i][1] * columns[j][1]));
-        local(inner.direction.map(|part| inner.load * part), k, inner.load)
+        let greatest = inner.load.max(at.contacts[1].load);
+        local(inner.direction.map(|part| inner.load * part), k, greatest)
     }
 
     fn guess(&self, axial: f64, radial: f64) -> [f64; 2] {

@@ -131,6 +131,11 @@ impl Rollers {
         self.stiffness * self.slices.len() as f64
     }
 
+    /// Distance of the pressure centre, in which a radial load does not tilt the ring, from the middle of the row along the axis. \[m\]
+    pub fn pressure_centre(&self) -> f64 {
+        0.5 * self.geometry.pitch_diameter * self.geometry.contact_angle.tan()
+    }
+
     /// Approach of both rings at the middle of a straight roller. \[m\]
     fn approach(&self, [axial, radial, tilt]: [f64; 3]) -> f64 {
         let [cos, sin] = self.normal;

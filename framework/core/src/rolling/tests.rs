@@ -6,6 +6,7 @@ mod high_speed;
 mod integrals;
 mod properties;
 mod rollers;
+mod search;
 
 use super::*;
 

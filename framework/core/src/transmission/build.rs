@@ -21,11 +21,12 @@ use super::states::{GearState, states};
 use super::statics::{Imported, imported, load_factors, shaft_loads};
 use super::transfers::{self, Transfer, TransferSeat};
 use super::{
-    Component, DragModel, MeshLaw, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, Sump, Transmission,
-    WHEEL_SPEEDS, WHEELS,
+    Component, DragModel, MeshLaw, MeshModel, PartInfo, PartKind, Port, RatedSupport, Sharing, StiffnessAtLoad, Sump,
+    Transmission, WHEEL_SPEEDS, WHEELS,
 };
 use crate::attach::{
-    Common, Level, Names, Places, RadialStiffness, Seated, SeatedClearance, SeatedPocket, SeatedSupport, dangling,
+    Common, Level, Names, Places, Seated, SeatedClearance, SeatedPocket, SeatedSupport, StatedStiffness, Stiffness,
+    dangling,
 };
 use crate::codes;
 use crate::description::{GearboxEntry, NetworkChoice, OF_MODELS, SameModels, ThermalMode};
@@ -438,13 +439,13 @@ impl Models {
         let has_preload = self.supports.iter().any(|support| support.place.preload.is_some());
         for placed in self.components.iter().map(|component| &component.placed) {
             if let Some(support) = placed.support() {
-                let stated = self.supports[usize::from(support)].place.radial_stiffness;
-                let load = stated.and_then(|stiffness| match stiffness {
-                    RadialStiffness::Constant(_) => None,
-                    RadialStiffness::At(load) => Some(load.at_load),
+                let place = &self.supports[usize::from(support)].place;
+                let stiffness = Stiffness::ALL.map(|stiffness| match place.stated(stiffness)? {
+                    StatedStiffness::Constant(_) => None,
+                    StatedStiffness::At(load) => Some(placed.stiffness(stiffness, load).map_err(Cow::into_owned)),
                 });
                 designs[usize::from(support)] = Design {
-                    stiffness: load.map(|load| placed.radial_stiffness(load).map_err(Cow::into_owned)),
+                    stiffness,
                     name: placed.name(),
                     carries: placed.carries(),
                     induced: placed.induced(),
@@ -1162,15 +1163,23 @@ fn described(resolved: &Value, members: &Members) -> Vec<Described> {
     members.names.iter().map(described).collect()
 }
 
-/// Bearings whose radial stiffness follows from a load: number of the support, load and stiffness.
-fn stiffnesses(supports: &[SeatedSupport], designs: &[Design]) -> Vec<(usize, f64, f64)> {
+/// Each stiffness that follows from a load.
+fn stiffnesses(supports: &[SeatedSupport], designs: &[Design]) -> Vec<StiffnessAtLoad> {
     let each = supports.iter().zip(designs).enumerate();
-    each.filter_map(
-        |(number, (support, design))| match (support.place.radial_stiffness, &design.stiffness) {
-            (Some(RadialStiffness::At(load)), Some(Ok(stiffness))) => Some((number, load.at_load, *stiffness)),
-            _ => None,
-        },
-    )
+    each.flat_map(|(support, (seated, design))| {
+        Stiffness::ALL.into_iter().filter_map(move |stiffness| {
+            let StatedStiffness::At(load) = seated.place.stated(stiffness)? else {
+                return None;
+            };
+            let value = *design.stiffness(stiffness)?.as_ref().ok()?;
+            Some(StiffnessAtLoad {
+                support,
+                stiffness,
+                load,
+                value,
+            })
+        })
+    })
     .collect()
 }
 

@@ -2,7 +2,7 @@
 
 use super::members::Members;
 use super::preloads::{PairPreload, Preloading};
-use crate::attach::{Axial, SeatedSupport, SupportPlace};
+use crate::attach::{Axial, SeatedSupport, Stiffness, SupportPlace};
 use crate::codes;
 use crate::document::Diagnostic;
 use crate::loads::{
@@ -20,8 +20,8 @@ pub(super) struct Design {
     pub induced: Induced,
     /// How it is displaced by an axial load, or why this is not known; `None` without a preload in the gearbox.
     pub row: Option<Result<AngularRow, String>>,
-    /// Its radial stiffness at the load that it states, or why this is not known; `None` if it states none. \[N/m\]
-    pub stiffness: Option<Result<f64, String>>,
+    /// Each [`Stiffness`] at the load that it states, or why this is not known; `None` if it states none.
+    pub stiffness: [Option<Result<f64, String>>; 2],
 }
 
 impl Default for Design {
@@ -31,12 +31,21 @@ impl Default for Design {
             carries: Carries::ANY,
             induced: Induced::None,
             row: None,
-            stiffness: None,
+            stiffness: [None, None],
         }
     }
 }
 
 impl Design {
+    /// A stiffness at the load that is stated for it.
+    pub fn stiffness(&self, stiffness: Stiffness) -> Option<&Result<f64, String>> {
+        let [radial, tilting] = &self.stiffness;
+        match stiffness {
+            Stiffness::Radial => radial.as_ref(),
+            Stiffness::Tilting => tilting.as_ref(),
+        }
+    }
+
     /// The thrust that a radial load induces, as stated or by the design; `None` without contact angle or if it is not known.
     pub fn induced_thrust(&self, place: &SupportPlace) -> Option<InducedThrust> {
         let stated = place.induced_thrust.map(|ratio| InducedThrust {

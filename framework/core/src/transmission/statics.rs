@@ -12,7 +12,7 @@ use super::pairs::{Design, NotCounted};
 use super::preloads;
 use super::seats::{CylindricalTeeth, MeshSeat, Teeth, orbit};
 use super::transfers::TransferSeat;
-use crate::attach::{Axial, Factor, RadialStiffness, SeatedSupport, dangling};
+use crate::attach::{Axial, Factor, SeatedSupport, StatedStiffness, Stiffness, dangling};
 use crate::codes;
 use crate::description::{GearboxEntry, Unsupported};
 use crate::document::Diagnostic;
@@ -267,22 +267,29 @@ fn support_layout(
             .help("give both members the same `axis`, also the point from which positions count"),
         );
     }
-    let radial_stiffness = match (place.radial_stiffness, &design.stiffness) {
-        (Some(RadialStiffness::Constant(stiffness)), _) => Some(stiffness),
-        (Some(RadialStiffness::At(_)), Some(Ok(stiffness))) => Some(*stiffness),
-        (Some(RadialStiffness::At(_)), Some(Err(reason))) => {
+    let mut stiffness_of = |stiffness: Stiffness| match (place.stated(stiffness)?, design.stiffness(stiffness)) {
+        (StatedStiffness::Constant(value), _) => Some(value),
+        (StatedStiffness::At(_), Some(Ok(value))) => Some(*value),
+        (StatedStiffness::At(_), Some(Err(reason))) => {
+            let unit = match stiffness {
+                Stiffness::Radial => "N/mm",
+                Stiffness::Tilting => "Nm/rad",
+            };
             found.push(
                 Diagnostic::error(
-                    format!("{}.radial_stiffness", support.path),
+                    format!("{}.{}", support.path, stiffness.key()),
                     format!("no stiffness at this load: {reason}"),
                 )
                 .code(codes::NO_STIFFNESS)
-                .help("state the stiffness in N/mm, or the geometry of the rolling elements under `internal`"),
+                .help(format!(
+                    "state the stiffness in {unit}, or the geometry of the rolling elements under `internal`"
+                )),
             );
             None
         }
-        _ => None,
+        (StatedStiffness::At(_), None) => None,
     };
+    let [radial_stiffness, tilting_stiffness] = Stiffness::ALL.map(&mut stiffness_of);
     SupportLayout {
         inner,
         outer,
@@ -293,7 +300,7 @@ fn support_layout(
         takes_radial: design.carries.radial,
         takes_moment: place.takes_moment,
         radial_stiffness,
-        tilting_stiffness: place.tilting_stiffness,
+        tilting_stiffness,
         induced: design.induced_thrust(place).map(|induced| induced.ratio),
         preloaded: None,
     }

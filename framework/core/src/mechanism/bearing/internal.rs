@@ -13,9 +13,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{BearingKind, BearingPart};
+use crate::attach::Stiffness;
 use crate::loads::AngularRow;
 use crate::rolling::{
-    Axes, BallGeometry, Balls, Contact, ManyElements, Material, Profile, RollerGeometry, Rollers, balance,
+    Axes, BallGeometry, Balls, Contact, ManyElements, Material, Profile, RollerGeometry, Rollers, Row, balance,
+    balance_from,
 };
 
 /// Internal geometry of a bearing with one row of balls or rollers; what is omitted is estimated from the boundary dimensions. For the
@@ -89,33 +91,38 @@ pub struct Elements {
 /// Fa over Fr tan(a) at which half of very many elements carry, of balls and of rollers (integrals of Sjoevall).
 const HALF_LOADED: [f64; 2] = [1.216, 1.258];
 
+/// A stiffness of a row under a thrust and a radial load on a ring that does not tilt.
+fn stiffness_of(row: &impl Row, stiffness: Stiffness, [axial, radial]: [f64; 2]) -> Option<f64> {
+    let given = Axes::loaded(axial, radial);
+    let level = balance(row, &given).ok()?;
+    match stiffness {
+        Stiffness::Radial => Some(radial / level.displacement.radial[0]).filter(|stiffness| *stiffness > 0.0),
+        Stiffness::Tilting => {
+            // Free, under the moment that holds it.
+            let given = given.with_moment(level.load.tilt[0]).mirrored();
+            balance_from(row, &given, &level.displacement).ok()?.tilting_stiffness()
+        }
+    }
+}
+
 impl Elements {
-    /// Radial load over the radial displacement that it causes, with a ring that does not tilt; with a contact angle under the axial load that
-    /// loads half of the elements. \[N and N/m\]
+    /// A stiffness under a radial load (N) on a ring that does not tilt; with a contact angle under the axial load that loads half of the elements.
+    /// The radial one is the load over the displacement, that against a tilt in the plane of the load the slope of the moment, at constant loads.
     ///
     /// # Errors
-    /// If the elements do not carry it.
-    pub fn radial_stiffness(&self, load: f64) -> Result<f64, Cow<'static, str>> {
-        let axial = |angle: f64, share: f64| share * load * angle.tan();
+    /// If the elements do not carry the load.
+    pub fn stiffness(&self, stiffness: Stiffness, load: f64) -> Result<f64, Cow<'static, str>> {
+        let loads = |angle: f64, share: f64| [share * load * angle.tan(), load];
         let [balls, rollers] = HALF_LOADED;
         let found = match &self.row {
-            ElementRow::Balls(row) => {
-                let axial = axial(row.geometry().contact_angle, balls);
-                balance(row, &Axes::loaded(axial, load))
-            }
-            ElementRow::Rollers(row) => {
-                let axial = axial(row.geometry().contact_angle, rollers);
-                balance(row, &Axes::loaded(axial, load))
-            }
+            ElementRow::Balls(row) => stiffness_of(row, stiffness, loads(row.geometry().contact_angle, balls)),
+            ElementRow::Rollers(row) => stiffness_of(row, stiffness, loads(row.geometry().contact_angle, rollers)),
         };
-        let displacement = found.map_or(f64::NAN, |found| found.displacement.radial[0]);
-        if displacement > 0.0 {
-            Ok(load / displacement)
-        } else {
-            Err(Cow::Owned(format!(
+        found.ok_or_else(|| {
+            Cow::Owned(format!(
                 "its rolling elements have no equilibrium under a radial load of {load} N"
-            )))
-        }
+            ))
+        })
     }
 }
 
@@ -553,11 +560,16 @@ mod tests {
         let sum: f64 = cosines.filter(|cos| *cos > 0.0).map(|cos| cos.powf(2.5)).sum();
         for load in [100.0, 3000.0, 20_000.0] {
             let displacement = (load / (row.stiffness() * sum)).powf(2.0 / 3.0);
-            assert_close(elements.radial_stiffness(load).unwrap(), load / displacement, 1e-9);
+            assert_close(
+                elements.stiffness(Stiffness::Radial, load).unwrap(),
+                load / displacement,
+                1e-9,
+            );
         }
         // Twice the load has 2^(1/3) times the stiffness; of rollers less, down to 2^(1/10) if they were straight.
         let ratio = |elements: &Elements| {
-            elements.radial_stiffness(6000.0).unwrap() / elements.radial_stiffness(3000.0).unwrap()
+            elements.stiffness(Stiffness::Radial, 6000.0).unwrap()
+                / elements.stiffness(Stiffness::Radial, 3000.0).unwrap()
         };
         assert_close(ratio(&elements), 2.0_f64.cbrt(), 1e-9);
         let rollers = BearingPart {
@@ -566,8 +578,42 @@ mod tests {
         };
         let rollers = rollers.rolling_elements().unwrap();
         assert!((1.0..1.3).contains(&ratio(&rollers)), "{}", ratio(&rollers));
-        assert!(rollers.radial_stiffness(3000.0).unwrap() > elements.radial_stiffness(3000.0).unwrap());
+        assert!(
+            rollers.stiffness(Stiffness::Radial, 3000.0).unwrap()
+                > elements.stiffness(Stiffness::Radial, 3000.0).unwrap()
+        );
         let spherical = part(BearingKind::SphericalRoller, 40.0, 80.0);
         assert!(spherical.rolling_elements().is_err());
+    }
+
+    /// The slope of the moment over the tilt, with and without contact angle.
+    #[test]
+    fn tilting_stiffness_is_the_slope_of_the_moment() {
+        let of = |row: &dyn Fn(f64) -> f64| (row(1e-6) - row(-1e-6)) / 2e-6;
+        let mut found = Vec::new();
+        for (kind, angle) in [
+            (BearingKind::DeepGrooveBall, None),
+            (BearingKind::AngularContactBall, Some(40.0_f64.to_radians())),
+            (BearingKind::CylindricalRoller, None),
+            (BearingKind::TaperedRoller, Some(14.0_f64.to_radians())),
+        ] {
+            let bearing = BearingPart {
+                width: Some(18e-3),
+                contact_angle: angle,
+                ..part(kind, 40.0, 80.0)
+            };
+            let elements = bearing.rolling_elements().unwrap();
+            let stiffness = elements.stiffness(Stiffness::Tilting, 3000.0).unwrap();
+            let share = HALF_LOADED[usize::from(!kind.has_balls())];
+            let given = Axes::loaded(share * 3000.0 * angle.unwrap_or(0.0).tan(), 3000.0);
+            let slope = match &elements.row {
+                ElementRow::Balls(row) => of(&|tilt| balance(row, &given.with_tilt(tilt)).unwrap().load.tilt[0]),
+                ElementRow::Rollers(row) => of(&|tilt| balance(row, &given.with_tilt(tilt)).unwrap().load.tilt[0]),
+            };
+            assert!((stiffness / slope - 1.0).abs() < 1e-4, "{kind:?}: {stiffness} {slope}");
+            found.push(stiffness);
+        }
+        // Rollers resist to tilts, balls hardly.
+        assert!(found[2] > 10.0 * found[0], "{found:?}");
     }
 }

@@ -169,3 +169,22 @@ fn stiffness_is_a_slope() {
     let radial = at(800.0, 500.0 + step).displacement.radial[0] - at(800.0, 500.0 - step).displacement.radial[0];
     assert_close(middle.radial_stiffness().unwrap_or_default(), 2.0 * step / radial, 1e-6);
 }
+
+/// Small tilts turn the forces of the balls, of which the ring, free along its axis, takes the mean: q = Q/(A + delta),
+/// M = R^2 (sum of q cos^2 - (sum of q cos)^2/sum of q) psi.
+#[test]
+fn tilting_stiffness_of_radially_loaded_balls() {
+    let bearing = Balls::new(seven_balls(10.0 * UM));
+    let found = balanced(&bearing, Axes::loaded(0.0, 1000.0).with_moment(0.0).mirrored());
+    let mut sums = [0.0; 3];
+    for (ball, [cos, _]) in bearing.loads(&found.displacement).zip(bearing.directions()) {
+        let load = ball.load[0];
+        let approach = (load / bearing.stiffness()).powf(2.0 / 3.0);
+        let turning = load / (bearing.geometry().groove_distance() + approach);
+        for (sum, share) in sums.iter_mut().zip([1.0, *cos, cos * cos]) {
+            *sum += turning * share;
+        }
+    }
+    let expected = bearing.radius().powi(2) * (sums[2] - sums[1] * sums[1] / sums[0]);
+    assert_close(found.tilting_stiffness().unwrap_or_default(), expected, 1e-9);
+}

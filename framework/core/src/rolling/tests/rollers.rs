@@ -102,3 +102,27 @@ fn pressure_of_a_slice() {
         1e-12,
     );
 }
+
+/// Straight rollers tilt about their middle: each resists with 10/9 of its stiffness times the mean square of the distance of its slices.
+#[test]
+fn tilting_stiffness_of_straight_rollers() {
+    let geometry = RollerGeometry {
+        profile: Profile::Straight,
+        ..fourteen_rollers()
+    };
+    let bearing = Rollers::new(geometry);
+    let found = balanced(&bearing, Axes::loaded(0.0, 5000.0).with_moment(0.0).mirrored());
+    let slices = geometry.slices as f64;
+    let square = geometry.length * geometry.length / 12.0 * (1.0 - 1.0 / (slices * slices));
+    let each = bearing.loads(&found.displacement).zip(bearing.directions());
+    let resisting = each.map(|(roller, [cos, _])| {
+        let approach = (roller.load / bearing.stiffness()).powf(0.9);
+        if approach == 0.0 {
+            0.0
+        } else {
+            cos * cos * roller.load / approach
+        }
+    });
+    let expected = 10.0 / 9.0 * square * resisting.sum::<f64>();
+    assert_close(found.tilting_stiffness().unwrap_or_default(), expected, 1e-9);
+}
