@@ -1,7 +1,7 @@
 //! What is known of the error of the models that bands contain, in words.
 
 use gearloss_framework::resolve::OWN_MODELS;
-use gearloss_studies::analyses::model_error::{ModelError, ModelErrorOfSet, StateOfModelError};
+use gearloss_studies::analyses::common::model_error::{ModelError, ModelErrorOfSet, StateOfModelError};
 
 use crate::page::Page;
 use crate::text::{TextTable, number, significant};

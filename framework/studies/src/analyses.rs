@@ -1,54 +1,32 @@
-//! Analyses: their entries in a study, computation and outcomes.
+//! Analyses: their entries in a study, computation and outcomes. Each file or folder is one analysis; `common/` has what they share, and
+//! [`engine`](crate::engine) computes what they plan.
 //!
 //! Like a model, an analysis registers itself with [`register_analysis!`](crate::register_analysis), so that the schema, `run`, the
 //! reference and the report find it.
 
-pub mod axes;
 pub mod axle_split;
 pub mod balance;
 pub mod breakdown;
-pub mod chosen;
+pub mod common;
 pub mod compare;
 pub mod component_compare;
 pub mod contact_path;
-mod corrected;
 pub mod cycle;
-pub mod duties;
-pub mod engine;
 pub mod fluid_sweep;
-mod gears;
-pub mod head;
 pub mod identify;
-pub mod inputs;
-pub mod limits;
-mod machine_demand;
 pub mod map;
-pub mod measurable;
-pub mod model_error;
-pub mod numbers;
 pub mod oil_property;
 pub mod operating_points;
 pub mod optimise;
-pub mod outside_maps;
-pub mod plan;
-pub mod planner;
-pub mod progress;
-pub mod ranges;
 pub mod rms_surface;
-pub mod rows;
 pub mod sensitivity;
-pub mod shares;
 pub mod spin_loss;
-pub mod stopped;
 pub mod sweep;
 pub mod temperature_sweep;
 pub mod thermal_limit;
 pub mod tournament;
-pub mod trial;
 pub mod uncertainty;
-pub(crate) mod units;
 pub mod validation;
-mod within;
 
 use std::any::Any;
 use std::fmt;
@@ -63,14 +41,9 @@ use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 
-pub use chosen::Chosen;
-pub use engine::Engine;
-pub use head::Head;
-pub use plan::{BuiltAgain, Plan, Run, Runs, Work};
-pub use planner::{Built, Planner, gear_of};
-pub use stopped::Stopped;
-use within::JobsWithin;
+pub use common::chosen::Chosen;
 
+pub use crate::engine::{Built, BuiltAgain, Engine, Head, Plan, Planner, Run, Runs, Stopped, Work, gear_of};
 use crate::points::Note;
 use crate::study::{ParameterKey, Then, Uses, Write};
 use crate::table::Table;

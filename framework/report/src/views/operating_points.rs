@@ -2,8 +2,8 @@
 
 mod summary;
 
-use gearloss_studies::analyses::measurable::{is_measurable, note};
-use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::common::measurable::{is_measurable, note};
+use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome, PointsOfSet};
 
 use crate::Figure;

@@ -4,7 +4,7 @@ mod pictures;
 mod summary;
 
 use gearloss_numerics::sensitivity::{Estimate, Influence};
-use gearloss_studies::analyses::ranges::published;
+use gearloss_studies::analyses::common::ranges::published;
 use gearloss_studies::analyses::sensitivity::{
     EffectOfParameter, OutputKind, OutputSensitivity, SensitivityOfSet, SensitivityOutcome, SharesOfVariance,
 };

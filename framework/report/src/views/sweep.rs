@@ -3,7 +3,7 @@
 mod cycles;
 mod summary;
 
-use gearloss_studies::analyses::numbers::word;
+use gearloss_studies::analyses::common::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
 use crate::figure::Best;

@@ -2,7 +2,7 @@
 
 mod summary;
 
-use gearloss_studies::analyses::numbers::tidy;
+use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{BandsOfSet, PointOfBand, QuantityBand, UncertaintyOutcome};
 
 use crate::figure::jumps;

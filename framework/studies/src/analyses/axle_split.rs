@@ -16,7 +16,7 @@ use serde::Deserialize;
 
 use self::best::{ByShare, State, least};
 pub use self::outcome::{AxleSplitOutcome, FixedSplit, IntervalOfSplit, SplitOfCycle, TimeInState};
-use super::duties::{Duties, Read, machine_of_map};
+use super::common::duties::{Duties, Read, machine_of_map};
 use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work, gear_of};
 use crate::codes;
 use crate::duty::{Demand, Interval};

@@ -6,8 +6,8 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::axes::{axis, speeds, torques};
-use super::numbers::{RPM, tidy};
+use super::common::axes::{axis, speeds, torques};
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Built, Chosen, Engine, Planner, Stopped};
 use crate::measured::{Measured, Seen};
 use crate::points::{Given, PointResult};

@@ -15,11 +15,11 @@ pub use on_grid::{DifferenceAt, GridComparison, GridDifference, GridPlan};
 pub use over_cycles::{CycleComparison, DifferenceOfPhase, DifferenceOfShare};
 pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranking, ranking};
 
-use super::duties::DrivePlan;
-use super::inputs::Input;
-use super::measurable::{countable, measured};
-use super::model_error::ModelErrorEntry;
-use super::rows::RowsPlan;
+use super::common::duties::DrivePlan;
+use super::common::inputs::Input;
+use super::common::measurable::{countable, measured};
+use super::common::model_error::ModelErrorEntry;
+use super::common::rows::RowsPlan;
 use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
 use crate::codes;
 use crate::correction::{CorrectionFrom, ReadyCorrection};

@@ -14,9 +14,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::axes::{speeds, torques};
-use super::measurable::is_measurable;
-use super::numbers::{RPM, tidy};
+use super::common::axes::{speeds, torques};
+use super::common::measurable::is_measurable;
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work, gear_of};
 use crate::points::{Note, Points, notes};
 use crate::register_analysis;

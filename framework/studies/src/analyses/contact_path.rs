@@ -23,7 +23,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::numbers::{RPM, tidy};
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Run, Runs, Stopped};
 use crate::points::{Given, Note};
 use crate::register_analysis;

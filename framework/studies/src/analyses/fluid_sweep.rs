@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::swept::Swept;
-use super::duties::{DrivePlan, Duties, MeanLoss, Unfinished, sums_energies};
-use super::limits::over_cycles::{built, limits_of, note_proposed, values, violation};
-use super::limits::{Limit, LimitRecord};
-use super::shares::together;
-use super::trial::{Left, Trial};
+use super::common::duties::{DrivePlan, Duties, MeanLoss, Unfinished, sums_energies};
+use super::common::limits::over_cycles::{built, limits_of, note_proposed, values, violation};
+use super::common::limits::{Limit, LimitRecord};
+use super::common::shares::together;
+use super::common::trial::{Left, Trial};
 use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
 use crate::duty::Consumption;
 use crate::points::Note;

@@ -31,8 +31,9 @@ pub use entry::{IdentifyEntry, NextEntry, PosteriorEntry, RobustEntry, RobustLos
 pub use folds::{FoldOfSet, FoldsOfSet};
 pub use outcome::{IdentificationOfSet, IdentifyOutcome};
 
-use super::{Analysis, Built, Engine, JobsWithin, Plan, Planner, Stopped, Work, gear_of};
+use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work, gear_of};
 use crate::codes;
+use crate::engine::JobsWithin;
 use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
 use crate::measured::Measured;
 use crate::points::Rows;

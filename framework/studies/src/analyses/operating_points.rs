@@ -8,10 +8,10 @@ use gearloss_framework::thermal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::limits::at_points::LimitColumn;
-use super::numbers::{RPM, tidy};
-use super::rows::{RowsPlan, Solved};
-use super::shares::{Shares, together};
+use super::common::limits::at_points::LimitColumn;
+use super::common::numbers::{RPM, tidy};
+use super::common::rows::{RowsPlan, Solved};
+use super::common::shares::{Shares, together};
 use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Stopped};
 use crate::measured::{ListedPoint, Measured, Row};
 use crate::points::{Note, PointResult, UnitPoint};

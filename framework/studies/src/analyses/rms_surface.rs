@@ -14,9 +14,9 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use self::solve::{Counted, Pair, counted_points, pairs};
-use super::measurable::{countable, measured};
-use super::ranges::varied;
-use super::trial::Left;
+use super::common::measurable::{countable, measured};
+use super::common::ranges::varied;
+use super::common::trial::Left;
 use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work};
 use crate::measured::Measured;
 use crate::register_analysis;

@@ -19,10 +19,11 @@ pub use outcome::{
 pub use outputs::OutputKind;
 
 use self::outputs::Outputs;
-use super::axes::grid_axes;
-use super::ranges::{Range, built_again, once};
-use super::trial::{Left, Trial, left};
-use super::{Analysis, Built, BuiltAgain, Engine, JobsWithin, Plan, Planner, Run, Stopped, Work};
+use super::common::axes::grid_axes;
+use super::common::ranges::{Range, built_again, once};
+use super::common::trial::{Left, Trial, left};
+use super::{Analysis, Built, BuiltAgain, Engine, Plan, Planner, Run, Stopped, Work};
+use crate::engine::JobsWithin;
 use crate::points::{Points, notes};
 use crate::register_analysis;
 use crate::study::{Grid, NameOr, ParameterKey, RangeEntry, Uses, Write};

@@ -5,9 +5,9 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::axes::speeds;
 use super::breakdown::{Along, As, BarsPlan, BreakdownOutcome, Common, RowOfBars};
-use super::numbers::RPM;
+use super::common::axes::speeds;
+use super::common::numbers::RPM;
 use super::{Analysis, Built, Engine, Planner, Stopped};
 use crate::points::Points;
 use crate::register_analysis;

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::axes::{axis, speeds, torques};
 use super::breakdown::{Along, As, BarsPlan, BreakdownOutcome, Common, RowOfBars};
-use super::numbers::{RPM, tidy};
+use super::common::axes::{axis, speeds, torques};
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Chosen, Engine, Planner, Stopped};
 use crate::points::Given;
 use crate::register_analysis;

@@ -7,9 +7,9 @@ use gearloss_framework::transmission::Case;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::axes::{speeds, torques};
 use super::balance::needs_balance;
-use super::numbers::{RPM, tidy};
+use super::common::axes::{speeds, torques};
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Chosen, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
 use crate::points::{Given, Note, UnitPoint, notes, unit_of};
 use crate::register_analysis;

@@ -5,12 +5,12 @@ mod samples;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::model_error::{ModelErrorEntry, losses_of_parts};
-use super::ranges::{PublishedCoefficient, built_again, published};
-use super::trial::Left;
+use super::common::model_error::{ModelErrorEntry, losses_of_parts};
+use super::common::ranges::{PublishedCoefficient, built_again, published};
+use super::common::trial::Left;
 use super::{Analysis, BuiltAgain, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
-use crate::analyses::axes::grid_axes;
-use crate::analyses::inputs::Input;
+use crate::analyses::common::axes::grid_axes;
+use crate::analyses::common::inputs::Input;
 use crate::codes;
 use crate::points::Note;
 use crate::register_analysis;
@@ -251,7 +251,7 @@ impl Analysis for UncertaintyEntry {
             let mut left = Left::new();
             let samples = samples::solve(engine, self.samples, run, inputs, &mut left)?;
             let nominal = engine.solve_here(run)?;
-            left.extend(super::trial::left(&run.built.transmission, &nominal.seen));
+            left.extend(super::common::trial::left(&run.built.transmission, &nominal.seen));
             all_left.extend(left);
             engine.weigh_model_error(&run.built.name, &losses_of_parts(&nominal.points));
             let [torques, speeds] = run.points.field.axes().unwrap_or_default();
@@ -264,7 +264,7 @@ impl Analysis for UncertaintyEntry {
                 inputs: samples.ranked(inputs),
                 points: samples.points(&nominal.points),
                 torques_nm: torques.to_vec(),
-                speeds_rpm: speeds.iter().map(|speed| speed * super::numbers::RPM).collect(),
+                speeds_rpm: speeds.iter().map(|speed| speed * super::common::numbers::RPM).collect(),
                 first_failure: samples.failed.into_iter().next(),
                 published: published(inputs.iter().map(|input| &input.range.varied)),
             })

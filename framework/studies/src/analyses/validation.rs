@@ -19,8 +19,8 @@ pub use self::cell::{Cell, Ratio};
 
 use self::candidate::{Candidate, PointOfCandidate};
 use self::film::Film;
-use super::inputs::Input;
-use super::numbers::{RPM, tidy};
+use super::common::inputs::Input;
+use super::common::numbers::{RPM, tidy};
 use super::tournament::CandidatesEntry;
 use super::tournament::entrants::Entrants;
 use super::tournament::slot::Slot;

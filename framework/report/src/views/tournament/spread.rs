@@ -1,6 +1,6 @@
 //! The spread of all combinations over a grid.
 
-use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::tournament::Spread;
 
 use crate::page::Page;

@@ -5,9 +5,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::super::model_error::ModelErrorEntry;
+use super::super::common::model_error::ModelErrorEntry;
 use super::super::{Planner, Stopped};
-use crate::analyses::measurable::measured;
+use crate::analyses::common::measurable::measured;
 use crate::study::{Data, Difference, Quantity, Write};
 
 /// Maximum number of combinations.
