@@ -18,22 +18,20 @@ pub fn add(limits: &[LimitReached], page: &mut Page) {
     if let Some(headline) = &mut page.headline {
         headline.push_str(&verdict(limits));
     }
-    let mut table = TextTable::new(&["limit", "models", "quantity", "allowed", "worst", "where", "beyond"]);
-    for limit in limits {
-        table.row(vec![
-            limit.limit.clone(),
-            limit.model_set.clone(),
-            of_component(&limit.quantity),
-            bounds(limit),
-            limit.worst.map_or_else(
-                || "unknown".to_owned(),
-                |worst| format!("{}{}", short(worst), after(&limit.unit)),
-            ),
-            place(&limit.at),
-            format!("{} of {}{}", limit.beyond, limit.points, unknown(limit)),
-        ]);
-    }
-    page.table(table.titled("Limits of the study"));
+    let table = TextTable::of(limits)
+        .column("limit", |limit| &limit.limit)
+        .column("models", |limit| &limit.model_set)
+        .column("quantity", |limit| of_component(&limit.quantity))
+        .column("allowed", |limit| bounds(limit))
+        .column("worst", |limit| match limit.worst {
+            Some(worst) => format!("{}{}", short(worst), after(&limit.unit)),
+            None => "unknown".to_owned(),
+        })
+        .column("where", |limit| place(&limit.at))
+        .column("beyond", |limit| {
+            format!("{} of {}{}", limit.beyond, limit.points, unknown(limit))
+        });
+    page.table(table.finish().titled("Limits of the study"));
 }
 
 /// Which limits are kept, as the end of a sentence; nothing if none is broken but some are not known everywhere.
