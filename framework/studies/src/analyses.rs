@@ -57,6 +57,8 @@ pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     const TYPE: &'static str;
     /// The key whose entries may be names of parameters of the study.
     const PARAMETERS: Option<ParameterKey> = None;
+    /// Formats that are written unless the entry states others under `write`.
+    const FORMATS: &'static [Write] = Write::DATA;
     /// What it computes, with all that was read and built for it.
     type Plan<'a>: Plan;
     /// Outcome.
@@ -81,9 +83,6 @@ pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     /// # Errors
     /// An interruption by the caller; that points have no solution without which there is no outcome.
     fn reduce<'a>(&'a self, plan: Self::Plan<'a>, engine: &Engine<'a>) -> Result<Self::Outcome, Stopped>;
-
-    /// Requested files.
-    fn formats(&self) -> &[Write];
 }
 
 /// The outcome of an analysis.
@@ -169,6 +168,8 @@ pub struct AnalysisKind {
     pub name: &'static str,
     /// The key whose entries may be names of parameters of the study.
     pub parameters: Option<ParameterKey>,
+    /// Formats that are written unless an entry states others.
+    pub formats: &'static [Write],
     /// Where it is registered.
     pub origin: Origin,
     schema: fn(&mut SchemaGenerator) -> Schema,
@@ -179,7 +180,6 @@ pub struct AnalysisKind {
     plan: fn(&Written, &Planner<'_>) -> Result<Vec<Work>, Stopped>,
     samples: fn(&Written, &Planner<'_>) -> Result<Vec<BuiltAgain>, Stopped>,
     run: fn(&Written, &Engine<'_>) -> Result<Box<dyn Outcome>, Stopped>,
-    formats: fn(&Written) -> &[Write],
     outcome: fn(&mut SchemaGenerator) -> Schema,
 }
 
@@ -191,6 +191,7 @@ impl AnalysisKind {
         Self {
             name: A::TYPE,
             parameters: A::PARAMETERS,
+            formats: A::FORMATS,
             origin,
             schema: SchemaGenerator::subschema_for::<A>,
             own_schema: A::json_schema,
@@ -213,7 +214,6 @@ impl AnalysisKind {
                 let plan = entry.plan(engine.planner())?;
                 Ok(Box::new(entry.reduce(plan, engine)?))
             },
-            formats: |entry| typed::<A>(entry).formats(),
             outcome: SchemaGenerator::subschema_for::<A::Outcome>,
         }
     }
@@ -291,6 +291,8 @@ pub struct AnalysisEntry {
     pub title: Option<String>,
     /// Note in the report.
     pub note: Option<String>,
+    /// Requested files.
+    pub write: Vec<Write>,
     kind: &'static AnalysisKind,
     written: Arc<Written>,
 }
@@ -336,11 +338,6 @@ impl AnalysisEntry {
         (self.kind.run)(self.written.as_ref(), engine)
     }
 
-    /// Requested files.
-    pub fn formats(&self) -> &[Write] {
-        (self.kind.formats)(self.written.as_ref())
-    }
-
     /// The names that it uses.
     pub fn uses(&self) -> Uses<'_> {
         (self.kind.uses)(self.written.as_ref())
@@ -355,7 +352,9 @@ impl AnalysisEntry {
 impl<'de> Deserialize<'de> for AnalysisEntry {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut value = Value::deserialize(deserializer)?;
-        let mut text = |key: &str| match value.as_object_mut().and_then(|record| record.shift_remove(key)) {
+        let mut take = |key: &str| value.as_object_mut().and_then(|record| record.shift_remove(key));
+        let write = take("write");
+        let mut text = |key: &str| match take(key) {
             Some(Value::String(text)) => Some(text),
             _ => None,
         };
@@ -368,10 +367,15 @@ impl<'de> Deserialize<'de> for AnalysisEntry {
             let help = close.map_or_else(String::new, |close| format!(", did you mean `{close}`?"));
             return Err(D::Error::custom(format!("there is no analysis `{name}`{help}")));
         };
+        let write = write
+            .map(serde_json::from_value)
+            .transpose()
+            .map_err(D::Error::custom)?;
         let written = (kind.read)(value).map_err(D::Error::custom)?;
         Ok(Self {
             title,
             note,
+            write: write.unwrap_or_else(|| kind.formats.to_vec()),
             kind,
             written,
         })
@@ -386,6 +390,10 @@ impl JsonSchema for AnalysisEntry {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let variants = AnalysisKind::linked().into_iter().map(|kind| {
             let mut variant = (kind.schema)(generator);
+            let mut write = Vec::<Write>::json_schema(generator);
+            let others = if kind.formats.contains(&Write::Svg) { ", JSON and SVG" } else { " and JSON" };
+            write.insert("description".to_owned(), format!("Formats to write; default: CSV{others}.").into());
+            write.insert("default".to_owned(), serde_json::json!(kind.formats));
             variant.insert("description".to_owned(), kind.meaning().into());
             variant.insert("type".to_owned(), "object".into());
             variant.insert(
@@ -394,6 +402,7 @@ impl JsonSchema for AnalysisEntry {
                     "type": { "type": "string", "const": kind.name },
                     "title": { "type": "string", "description": "Title in the report, also before the result where the study has several analyses of this type; default: the name of the analysis." },
                     "note": { "type": "string", "description": "Note in the report." },
+                    "write": write,
                 }),
             );
             variant.insert("required".to_owned(), serde_json::json!(["type"]));

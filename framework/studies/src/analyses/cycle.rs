@@ -85,9 +85,6 @@ pub struct CycleAnalysisEntry {
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "file"))]
     pub fmu_libraries: Vec<String>,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 /// A format of results of cycles.
@@ -151,6 +148,7 @@ impl Plan for CyclePlan<'_> {
 
 impl Analysis for CycleAnalysisEntry {
     const TYPE: &'static str = "cycle";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = CyclePlan<'a>;
     type Outcome = CycleOutcome;
 
@@ -251,10 +249,6 @@ impl Analysis for CycleAnalysisEntry {
             exports: self.export.clone(),
             libraries: plan.libraries,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

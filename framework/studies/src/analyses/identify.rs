@@ -61,6 +61,7 @@ impl Plan for IdentifyPlan<'_> {
 impl Analysis for IdentifyEntry {
     const TYPE: &'static str = "identify";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Whole("parameters"));
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = IdentifyPlan<'a>;
     type Outcome = IdentifyOutcome;
 
@@ -140,10 +141,6 @@ impl Analysis for IdentifyEntry {
                 next: self.next.is_some(),
             },
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

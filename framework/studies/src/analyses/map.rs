@@ -186,10 +186,6 @@ impl Analysis for MapEntry {
             table: rows.table,
         })
     }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
-    }
 }
 
 impl MapEntry {
@@ -416,6 +412,7 @@ impl<'c> Rows<'c> {
         let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
         let limits = LimitColumn::all(engine.language, engine.study);
         let has_unit = all.iter().any(|built| engine.has_machines(&built.transmission));
+        let formats = engine.formats();
         let mut none = RowsOf::none(bound, &parts, &limits, has_unit);
         none.corrected = corrections.is_some();
         Self {
@@ -424,8 +421,8 @@ impl<'c> Rows<'c> {
             limits,
             has_unit,
             of: entry.of,
-            holds: engine.sink.is_none() || entry.write.contains(&Write::Json),
-            wanted: engine.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
+            holds: engine.sink.is_none() || formats.contains(&Write::Json),
+            wanted: engine.sink.is_none() || formats.iter().any(|format| *format != Write::Svg),
             constant: 2 + bound.len(),
             parts,
             engine,

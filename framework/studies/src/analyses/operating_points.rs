@@ -40,9 +40,6 @@ pub struct OperatingPointsEntry {
     /// Grouping of losses.
     #[serde(default)]
     pub by: By,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 register_analysis!(OperatingPointsEntry);
@@ -164,6 +161,7 @@ impl MeasuredAtPoint {
 
 impl Analysis for OperatingPointsEntry {
     const TYPE: &'static str = "operating_points";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = RowsPlan<'a>;
     type Outcome = OperatingPointsOutcome;
 
@@ -191,10 +189,6 @@ impl Analysis for OperatingPointsEntry {
             file_notes: listed.notes,
             bound: self.bind.ids().map(str::to_owned).collect(),
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -79,9 +79,6 @@ pub struct OptimiseEntry {
     /// Name of a model set with the best design, for later analyses.
     #[schemars(extend("x-defines" = "model_sets"))]
     pub then: Option<String>,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 fn designs() -> u32 {
@@ -116,6 +113,7 @@ impl Plan for OptimisePlan<'_> {
 
 impl Analysis for OptimiseEntry {
     const TYPE: &'static str = "optimise";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = OptimisePlan<'a>;
     type Outcome = OptimiseOutcome;
 
@@ -188,10 +186,6 @@ impl Analysis for OptimiseEntry {
         Ok(outcome::put_together(
             self, b, &drives, &search, &present, objectives, changes, band,
         ))
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -67,9 +67,6 @@ pub struct SensitivityEntry {
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 16_777_216))]
     pub samples: u32,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 fn trajectories() -> u32 {
@@ -130,6 +127,7 @@ impl Plan for SensitivityPlan<'_> {
 impl Analysis for SensitivityEntry {
     const TYPE: &'static str = "sensitivity";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("parameters"));
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = SensitivityPlan<'a>;
     type Outcome = SensitivityOutcome;
 
@@ -178,10 +176,6 @@ impl Analysis for SensitivityEntry {
             head: engine.head(&built),
             sensitivities,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

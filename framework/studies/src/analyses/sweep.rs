@@ -65,9 +65,6 @@ pub struct SweepEntry {
     pub speed: Option<SpeedAxis>,
     /// Cycles instead of torques and speeds.
     pub drive: Option<RideEntry>,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 /// The second path of a sweep.
@@ -133,6 +130,7 @@ impl Plan for SweepPlan<'_> {
 
 impl Analysis for SweepEntry {
     const TYPE: &'static str = "sweep";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = SweepPlan<'a>;
     type Outcome = SweepOutcome;
 
@@ -222,10 +220,6 @@ impl Analysis for SweepEntry {
             limits,
             published: published(coefficients.iter()),
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

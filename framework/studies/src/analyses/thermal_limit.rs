@@ -32,9 +32,6 @@ pub struct ThermalLimitEntry {
     pub torque: TorqueAxis,
     /// Speeds: the given speeds, or the range of the search.
     pub speed: SpeedAxis,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 /// Unknown of a thermal limit.
@@ -107,6 +104,7 @@ pub struct ThermalLimit {
 
 impl Analysis for ThermalLimitEntry {
     const TYPE: &'static str = "thermal_limit";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = ThermalLimitPlan<'a>;
     type Outcome = ThermalLimitOutcome;
 
@@ -167,10 +165,6 @@ impl Analysis for ThermalLimitEntry {
             head: engine.head(&built),
             thermal_limits,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -42,9 +42,6 @@ pub struct UncertaintyEntry {
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 16_777_216))]
     pub samples: u32,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 fn samples() -> u32 {
@@ -202,6 +199,7 @@ impl Plan for UncertaintyPlan<'_> {
 impl Analysis for UncertaintyEntry {
     const TYPE: &'static str = "uncertainty";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("inputs"));
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = UncertaintyPlan<'a>;
     type Outcome = UncertaintyOutcome;
 
@@ -275,10 +273,6 @@ impl Analysis for UncertaintyEntry {
             bands,
             left: all_left,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

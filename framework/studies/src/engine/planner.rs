@@ -20,7 +20,7 @@ use crate::analyses::identify::IdentifyEntry;
 use crate::codes;
 use crate::correction::{CorrectionFrom, ReadyCorrection, UsedCorrection};
 use crate::points::{Field, Given, OilTemperature, Points};
-use crate::study::{Grid, Study};
+use crate::study::{Grid, Study, Write};
 
 /// One gearbox under one model set.
 pub struct Built<'a> {
@@ -117,6 +117,12 @@ impl<'a> Planner<'a> {
     /// Path of the analysis in the study.
     pub fn path(&self) -> String {
         format!("analyses.{}", self.name)
+    }
+
+    /// Files that the entry of the analysis requests.
+    pub fn formats(&self) -> &'a [Write] {
+        let entry = self.study.entry.analyses.get(self.name);
+        entry.map_or(&[], |entry| &entry.write)
     }
 
     /// The head of an outcome without what limits reached: provenance.
