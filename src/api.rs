@@ -62,8 +62,8 @@ pub use gearloss_framework::resolve::{Choice, Resolved};
 pub use gearloss_framework::transmission::{Case, Transmission};
 /// The analyses with their outcomes, for [`Outcome::get`]: `analyses::compare::CompareOutcome`.
 pub use gearloss_studies::analyses;
-pub use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 pub use gearloss_studies::analyses::{Engine, Outcome, Planner, Stopped};
+pub use gearloss_studies::engine::progress::{Progress, Silent, Steps};
 pub use gearloss_studies::points::{Derivative, Derivatives, Derived, Method, Variable};
 pub use gearloss_studies::points::{Field, Given, GridResult, OilTemperature, PointResult, Points};
 pub use gearloss_studies::run::StudyRun;

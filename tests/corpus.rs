@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use assert_cmd::Command;
 use gearloss_framework::files::Disk;
 use gearloss_report::validation;
-use gearloss_studies::analyses::progress::Silent;
 use gearloss_studies::corpus::{Basis, Corpus, cells_csv, over_sets};
+use gearloss_studies::engine::progress::Silent;
 
 use crate::common::study::run_texts;
 use crate::common::{file, language};

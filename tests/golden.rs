@@ -8,8 +8,8 @@ use gearloss_framework::files::Disk;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::Choice;
-use gearloss_studies::analyses::progress::Silent;
 use gearloss_studies::checked_study::CheckedStudy;
+use gearloss_studies::engine::progress::Silent;
 
 /// Cases of more than one mistake.
 const SEVERAL: [&str; 15] = [

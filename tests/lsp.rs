@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use crate::common;
 use gearloss::editor::Workspace;
-use gearloss::studies::analyses::progress::Silent;
+use gearloss::studies::engine::progress::Silent;
 use gearloss_framework::files::Disk;
 use serde_json::{Value, json};
 

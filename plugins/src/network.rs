@@ -268,7 +268,11 @@ fn bearing_node(bearing: &Seated, builder: &mut NetworkBuilder, casing: &str, su
 /// Adds the links of every gear to the oil: free convection at standstill, centrifugal film flow in motion.
 fn gears_to_oil(entry: &GearboxEntry, bodies: &Bodies<'_>, builder: &mut NetworkBuilder, sump: &str) {
     let oiled = |lubricant: Option<&str>| !entry.is_greased(lubricant);
-    for (id, gear) in entry.gears.iter().filter(|(_, gear)| oiled(gear.lubricant.as_deref())) {
+    for (id, gear) in entry
+        .gears
+        .iter()
+        .filter(|(_, gear)| oiled(gear.oil.lubricant.as_deref()))
+    {
         let (Some(node), Some(size)) = (builder.of_gear(id), bodies.size(id)) else {
             continue;
         };

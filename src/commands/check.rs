@@ -10,10 +10,10 @@ use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
 use gearloss_report::check::{CheckRecord, FileRecord, checked_text, resolved_text, torque_orders_text};
 use gearloss_studies::analyses::Stopped;
-use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 use gearloss_studies::checked::CheckedGearbox;
 use gearloss_studies::checked_study::{CheckedStudy, built_again};
 use gearloss_studies::corpus::{Corpus, Set};
+use gearloss_studies::engine::progress::{Progress, Silent, Steps};
 
 use super::set;
 use crate::args::{CheckArgs, ChoiceArgs, Format};

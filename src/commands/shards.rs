@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
 use gearloss_studies::distributed::{Collected, Results, Stage, compute};
+use gearloss_studies::engine::progress::{Progress, Silent, Steps};
 use gearloss_studies::run::StudyRun;
 
 use crate::args::ShardsArgs;

@@ -125,7 +125,7 @@ impl Ran {
         for file in page.files {
             self.files.insert(file.name, file.bytes);
         }
-        let formats = study.entry.analyses.get(name).unwrap().formats();
+        let formats = &study.entry.analyses.get(name).unwrap().write;
         if formats.contains(&Write::Svg) {
             for named in page.figures {
                 // A product precedes its set with a slash.

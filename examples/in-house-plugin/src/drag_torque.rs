@@ -8,24 +8,14 @@ use gearloss::studies::prelude::*;
 /// Torque that turns the unloaded gearbox, over the temperature of the oil.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct DragTorqueEntry {
-    /// Gearbox; default: the first.
-    #[schemars(extend("x-refers-to" = "gearboxes"))]
-    pub gearbox: Option<String>,
-    /// Gear; default: the first.
-    #[schemars(extend("x-refers-to" = "gear_states"))]
-    pub gear: Option<String>,
-    /// Model sets; default: the models of the gearbox.
-    #[serde(default)]
-    #[schemars(extend("x-refers-to" = "model_sets"))]
-    pub model_sets: Vec<String>,
+    /// Gearbox, gear and model sets.
+    #[serde(flatten)]
+    pub chosen: Chosen,
     /// Speed at the port that the conditions name. [rpm]
     #[schemars(range(min = 1.0, max = 1e6))]
     pub speed: f64,
     /// Temperatures of the oil.
     pub oil_temperature: TemperatureAxis,
-    /// Formats to write; default: CSV and JSON.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
 }
 
 register_analysis!(DragTorqueEntry);
@@ -68,11 +58,11 @@ impl Analysis for DragTorqueEntry {
     type Outcome = DragTorqueOutcome;
 
     fn uses(&self) -> Uses<'_> {
-        Uses::new(self.gearbox.as_ref(), &self.model_sets).in_gears(&self.gear)
+        self.chosen.uses()
     }
 
     fn plan<'a>(&'a self, cx: &Planner<'a>) -> Result<Runs<'a>, Stopped> {
-        let built = cx.built(cx.gearbox(self.gearbox.as_ref())?, &self.model_sets)?;
+        let built = self.chosen.built(cx)?;
         let path = format!("{}.oil_temperature", cx.path());
         let temperatures = axis(cx, &path, self.oil_temperature.values())?;
         Runs::of_sets(&built, |b| {
@@ -92,10 +82,6 @@ impl Analysis for DragTorqueEntry {
                 .collect(),
         })
     }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
-    }
 }
 
 impl DragTorqueEntry {
@@ -106,7 +92,7 @@ impl DragTorqueEntry {
             ..Given::new(0.0, self.speed)
         };
         let list = temperatures.iter().map(given).collect();
-        let mut points = cx.listed(t, gear_of(self.gear.as_deref(), t), list);
+        let mut points = cx.listed(t, self.chosen.gear(t), list);
         let names = t.ports().iter().map(|port| port.name.clone());
         points.torque_at = names.filter(|port| !points.speed_at.contains(port)).collect();
         points

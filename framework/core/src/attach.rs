@@ -91,60 +91,35 @@ pub struct Oil<R = f64> {
     pub limiting_slope: R,
 }
 
-impl<R: Copy> Oil<R> {
-    /// All properties, in a fixed order.
-    pub(crate) fn properties(&self) -> [R; 13] {
-        [
-            self.temperature,
-            self.nu,
-            self.rho,
-            self.eta,
-            self.nu40,
-            self.alpha,
-            self.beta,
-            self.conductivity,
-            self.mu_bl,
-            self.mu_ehl,
-            self.x_l,
-            self.tau0,
-            self.limiting_slope,
-        ]
-    }
+/// The properties of an oil as an array, in the order of their names, and back.
+macro_rules! properties {
+    ($($name:ident),*) => {
+        impl<R: Copy> Oil<R> {
+            pub(crate) fn properties(&self) -> [R; 13] {
+                [$(self.$name),*]
+            }
 
-    /// The oil with these properties, in the order of [`Oil::properties`].
-    pub(crate) fn of_properties(properties: [R; 13]) -> Self {
-        let [
-            temperature,
-            nu,
-            rho,
-            eta,
-            nu40,
-            alpha,
-            beta,
-            conductivity,
-            mu_bl,
-            mu_ehl,
-            x_l,
-            tau0,
-            limiting_slope,
-        ] = properties;
-        Self {
-            temperature,
-            nu,
-            rho,
-            eta,
-            nu40,
-            alpha,
-            beta,
-            conductivity,
-            mu_bl,
-            mu_ehl,
-            x_l,
-            tau0,
-            limiting_slope,
+            pub(crate) fn of_properties([$($name),*]: [R; 13]) -> Self {
+                Self { $($name),* }
+            }
         }
-    }
+    };
 }
+properties!(
+    temperature,
+    nu,
+    rho,
+    eta,
+    nu40,
+    alpha,
+    beta,
+    conductivity,
+    mu_bl,
+    mu_ehl,
+    x_l,
+    tau0,
+    limiting_slope
+);
 
 /// Oil supply of a component and its level.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -33,7 +33,7 @@ pub use crossed::{
     BevelMeshEntry, CalculationPoint, CrossedHelicalMeshEntry, CutterEntry, CuttingMethod, DepthEntry, FlankAngles,
     SpiralAngleOf, WormMeshEntry,
 };
-pub use every_mesh::{MeshCommon, MeshMetal};
+pub use every_mesh::{MeshCommon, MeshMetal, OilOfComponent};
 pub use gearloss_document::Ordered;
 pub use gears::{DifferentialEntry, GearEntry, GearKind, MeshEntry, Mounting, PlanetarySetEntry, Surface};
 pub use housing::{
@@ -193,17 +193,17 @@ impl GearboxEntry {
     pub fn all_meshes(&self) -> impl Iterator<Item = (String, &[String; 2], Option<&str>)> {
         let of = |section: &str, id: &str| format!("{section}.{id}");
         let meshes = self.meshes.iter();
-        let meshes = meshes.map(move |(id, m)| (of("meshes", id), &m.gears, m.common.lubricant.as_deref()));
+        let meshes = meshes.map(move |(id, m)| (of("meshes", id), &m.gears, m.common.oil.lubricant.as_deref()));
         let bevel = self.bevel_meshes.iter();
-        let bevel = bevel.map(move |(id, m)| (of("bevel_meshes", id), &m.gears, m.common.lubricant.as_deref()));
+        let bevel = bevel.map(move |(id, m)| (of("bevel_meshes", id), &m.gears, m.common.oil.lubricant.as_deref()));
         let worm = self.worm_meshes.iter();
-        let worm = worm.map(move |(id, m)| (of("worm_meshes", id), &m.gears, m.common.lubricant.as_deref()));
+        let worm = worm.map(move |(id, m)| (of("worm_meshes", id), &m.gears, m.common.oil.lubricant.as_deref()));
         let crossed = self.crossed_helical_meshes.iter();
         let crossed = crossed.map(move |(id, m)| {
             (
                 of("crossed_helical_meshes", id),
                 &m.gears,
-                m.common.lubricant.as_deref(),
+                m.common.oil.lubricant.as_deref(),
             )
         });
         meshes.chain(bevel).chain(worm).chain(crossed)

@@ -7,9 +7,9 @@ use gearloss_document::{Diagnostic, Severity, Span};
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::resolve::Choice;
 use gearloss_studies::analyses::Stopped;
-use gearloss_studies::analyses::progress::Progress;
 use gearloss_studies::checked::CheckedGearbox;
 use gearloss_studies::checked_study::CheckedStudy;
+use gearloss_studies::engine::progress::Progress;
 use serde::Serialize;
 
 use crate::place::DocumentKind;

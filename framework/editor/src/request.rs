@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use gearloss_studies::analyses::progress::Progress;
+use gearloss_studies::engine::progress::Progress;
 use serde::{Deserialize, Serialize};
 
 use crate::complete::Completion;

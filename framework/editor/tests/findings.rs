@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use gearloss_document::files::Disk;
 use gearloss_editor::Workspace;
-use gearloss_studies::analyses::progress::Silent;
+use gearloss_studies::engine::progress::Silent;
 
 use super::common::{in_memory, language, opened, repository};
 
@@ -85,7 +85,7 @@ fn answers_come_within_a_key_stroke() {
 /// Interrupted work has no result, so that no outdated findings are shown.
 #[test]
 fn an_interrupted_check_has_no_result() {
-    use gearloss_studies::analyses::progress::{Progress, Steps};
+    use gearloss_studies::engine::progress::{Progress, Steps};
     struct Never;
     impl Progress for Never {
         fn begin(&self, label: &str, count: usize) -> Box<dyn Steps + '_> {

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use gearloss_document::files::Disk;
 use gearloss_editor::Workspace;
-use gearloss_studies::analyses::progress::Silent;
+use gearloss_studies::engine::progress::Silent;
 
 use super::common::{examples, language, opened};
 

@@ -2,7 +2,7 @@
 
 use gearloss_document::files::InMemory;
 use gearloss_editor::{Request, Workspace};
-use gearloss_studies::analyses::progress::Silent;
+use gearloss_studies::engine::progress::Silent;
 use serde_json::{Value, json};
 
 use super::common::language;

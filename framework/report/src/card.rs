@@ -121,166 +121,116 @@ fn ratio_lines(transmission: &Transmission) -> String {
 
 /// Stages of gears on axes that cross; values of both gears with a slash.
 fn crossed_table(stages: &[CrossedStage]) -> String {
-    let mut table = TextTable::new(&[
-        "stage",
-        "z",
-        "ratio",
-        "shaft angle deg",
-        "offset mm",
-        "pitch angles deg",
-        "spiral angles deg",
-        "m_mn mm",
-        "d_m mm",
-        "mean point at mm",
-    ]);
-    let both = |values: [f64; 2], digits: usize| format!("{:.digits$}/{:.digits$}", values[0], values[1]);
-    for stage in stages {
-        table.row(vec![
-            last_key(&stage.mesh).to_owned(),
-            format!("{}/{}", stage.z[0], stage.z[1]),
-            format!("{:.4}", stage.ratio),
-            format!("{:.3}", stage.shaft_angle_deg),
-            format!("{:.3}", stage.offset_mm),
-            both(stage.pitch_angle_deg, 3),
-            both(stage.spiral_angle_deg.map(f64::abs), 3),
-            format!("{:.4}", stage.mean_normal_module_mm),
-            both(stage.mean_diameter_mm, 3),
-            both(stage.at_mm, 3),
-        ]);
-    }
-    table.render()
+    let both = |values: [f64; 2]| format!("{:.3}/{:.3}", values[0], values[1]);
+    TextTable::of(stages)
+        .column("stage", |stage| last_key(&stage.mesh))
+        .column("z", |stage| format!("{}/{}", stage.z[0], stage.z[1]))
+        .column("ratio", |stage| format!("{:.4}", stage.ratio))
+        .column("shaft angle deg", |stage| format!("{:.3}", stage.shaft_angle_deg))
+        .column("offset mm", |stage| format!("{:.3}", stage.offset_mm))
+        .column("pitch angles deg", |stage| both(stage.pitch_angle_deg))
+        .column("spiral angles deg", |stage| both(stage.spiral_angle_deg.map(f64::abs)))
+        .column("m_mn mm", |stage| format!("{:.4}", stage.mean_normal_module_mm))
+        .column("d_m mm", |stage| both(stage.mean_diameter_mm))
+        .column("mean point at mm", |stage| both(stage.at_mm))
+        .finish()
+        .render()
 }
 
 /// What determines a stage.
 fn stage_table(stages: &[Stage]) -> String {
-    let mut table = TextTable::new(&[
-        "stage",
-        "z",
-        "ratio",
-        "a mm",
-        "x1",
-        "x2",
-        "x1+x2",
-        "eps_alpha",
-        "eps_beta",
-        "face overlap mm",
-    ]);
-    for stage in stages {
-        let narrow = stage.facewidth_mm[0].min(stage.facewidth_mm[1]);
-        let [x1, x2] = stage.profile_shift;
-        let sum = if stage.internal { x2 - x1 } else { x1 + x2 };
-        let [x1, x2, sum] = [x1, x2, sum].map(|x| number(Some(if x.abs() < 5e-5 { 0.0 } else { x }), 4));
-        table.row(vec![
-            mesh_name(stage),
-            format!("{}/{}", stage.z[0], stage.z[1]),
-            number(Some(stage.ratio), 4),
-            number(Some(stage.centre_distance_mm), 3),
-            x1,
-            x2,
-            sum,
-            number(stage.transverse_contact_ratio, 4),
-            number(Some(stage.overlap_contact_ratio), 4),
-            format!("{} of {}", significant(stage.face_overlap_mm), significant(narrow)),
-        ]);
-    }
-    table.render()
+    let shift = |x: f64| number(Some(if x.abs() < 5e-5 { 0.0 } else { x }), 4);
+    TextTable::of(stages)
+        .column("stage", |stage| mesh_name(stage))
+        .column("z", |stage| format!("{}/{}", stage.z[0], stage.z[1]))
+        .column("ratio", |stage| number(Some(stage.ratio), 4))
+        .column("a mm", |stage| number(Some(stage.centre_distance_mm), 3))
+        .column("x1", |stage| shift(stage.profile_shift[0]))
+        .column("x2", |stage| shift(stage.profile_shift[1]))
+        .column("x1+x2", |stage| {
+            let [x1, x2] = stage.profile_shift;
+            shift(if stage.internal { x2 - x1 } else { x1 + x2 })
+        })
+        .column("eps_alpha", |stage| number(stage.transverse_contact_ratio, 4))
+        .column("eps_beta", |stage| number(Some(stage.overlap_contact_ratio), 4))
+        .column("face overlap mm", |stage| {
+            let narrow = stage.facewidth_mm[0].min(stage.facewidth_mm[1]);
+            format!("{} of {}", significant(stage.face_overlap_mm), significant(narrow))
+        })
+        .finish()
+        .render()
 }
 
 /// Chains and belts, with the links that their wheels need.
 fn chain_table(chains: &[ChainStage]) -> String {
-    let mut table = TextTable::new(&["chain", "z", "ratio", "a mm", "wrap deg", "links needed", "links"]);
-    for chain in chains {
-        table.row(vec![
-            last_key(&chain.chain).to_owned(),
-            format!("{}/{}", chain.z[0], chain.z[1]),
-            number(Some(chain.ratio), 4),
-            number(Some(chain.centre_distance_mm), 3),
-            format!("{:.1} / {:.1}", chain.wrap_deg[0], chain.wrap_deg[1]),
-            number(Some(chain.links_needed), 3),
-            chain.links.map_or_else(|| "-".to_owned(), |links| links.to_string()),
-        ]);
-    }
-    table.render()
+    TextTable::of(chains)
+        .column("chain", |chain| last_key(&chain.chain))
+        .column("z", |chain| format!("{}/{}", chain.z[0], chain.z[1]))
+        .column("ratio", |chain| number(Some(chain.ratio), 4))
+        .column("a mm", |chain| number(Some(chain.centre_distance_mm), 3))
+        .column("wrap deg", |chain| {
+            format!("{:.1} / {:.1}", chain.wrap_deg[0], chain.wrap_deg[1])
+        })
+        .column("links needed", |chain| number(Some(chain.links_needed), 3))
+        .column("links", |chain| {
+            chain.links.map_or_else(|| "-".to_owned(), |links| links.to_string())
+        })
+        .finish()
+        .render()
 }
 
 /// Whether its teeth can exist and run: both gears of a stage in one cell.
 fn tooth_table(stages: &[Stage]) -> String {
-    let mut table = TextTable::new(&[
-        "teeth",
-        "tip clearance mm",
-        "tip width mm",
-        "x over undercut",
-        "specific sliding",
-    ]);
     let both = |values: [Option<f64>; 2], digits: usize| {
         let cells = values.map(|value| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}")));
         format!("{} / {}", cells[0], cells[1])
     };
-    for stage in stages {
-        let above = |gear: usize| stage.undercut_limit[gear].map(|limit| stage.profile_shift[gear] - limit);
-        table.row(vec![
-            mesh_name(stage),
-            both(
-                [0, 1].map(|gear| stage.tip_clearance_mm.map(|clearances| clearances[gear])),
-                3,
-            ),
-            both(stage.tip_width_mm, 3),
-            both([0, 1].map(above), 3),
-            both(
-                [0, 1].map(|gear| stage.specific_sliding.map(|slidings| slidings[gear])),
-                2,
-            ),
-        ]);
-    }
-    table.render()
+    let of_both = |values: Option<[f64; 2]>| [0, 1].map(|gear| values.map(|values| values[gear]));
+    TextTable::of(stages)
+        .column("teeth", |stage| mesh_name(stage))
+        .column("tip clearance mm", |stage| both(of_both(stage.tip_clearance_mm), 3))
+        .column("tip width mm", |stage| both(stage.tip_width_mm, 3))
+        .column("x over undercut", |stage| {
+            let above = |gear: usize| stage.undercut_limit[gear].map(|limit| stage.profile_shift[gear] - limit);
+            both([0, 1].map(above), 3)
+        })
+        .column("specific sliding", |stage| both(of_both(stage.specific_sliding), 2))
+        .finish()
+        .render()
 }
 
 /// Bearings with their arrangement, and their loads at the rated point if there is one.
 fn bearing_table(bearings: &[BearingCard]) -> String {
     let rated = bearings.iter().any(|bearing| bearing.at_rating.is_some());
-    let mut head = vec![
-        "bearing",
-        "shaft",
-        "at mm",
-        "designation",
-        "takes thrust",
-        "C kN",
-        "C0 kN",
-    ];
-    if rated {
-        head.extend(["P kN", "P0 kN", "L10h h", "n d_m mm/min"]);
-    }
-    let mut table = TextTable::new(&head);
-    let cell = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), short);
-    let kilo = |value: Option<f64>| cell(value.map(|newton| newton / 1e3));
-    for bearing in bearings {
-        let thrust = match bearing.axial.as_str() {
+    let kilo = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |newton| short(newton / 1e3));
+    let whole = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.0}"));
+    let table = TextTable::of(bearings)
+        .column("bearing", |bearing| last_key(&bearing.bearing))
+        .column("shaft", |bearing| &bearing.shaft)
+        .column("at mm", |bearing| significant(bearing.at_mm))
+        .column("designation", |bearing| bearing.designation.as_deref().unwrap_or("-"))
+        .column("takes thrust", |bearing| match bearing.axial.as_str() {
             "both" => "both ways",
             "left" => "to -x",
             "right" => "to +x",
             _ => "no",
-        };
-        let mut row = vec![
-            last_key(&bearing.bearing).to_owned(),
-            bearing.shaft.clone(),
-            significant(bearing.at_mm),
-            bearing.designation.clone().unwrap_or_else(|| "-".to_owned()),
-            thrust.to_owned(),
-            kilo(bearing.c_n),
-            kilo(bearing.c0_n),
-        ];
-        if rated {
-            let at_rating = bearing.at_rating.clone().unwrap_or_default();
-            let life = at_rating
-                .l10h_h
-                .map_or_else(|| "-".to_owned(), |hours| format!("{hours:.0}"));
-            let speed = at_rating
-                .speed_factor
-                .map_or_else(|| "-".to_owned(), |factor| format!("{factor:.0}"));
-            row.extend([kilo(at_rating.p_n), kilo(at_rating.p0_n), life, speed]);
-        }
-        table.row(row);
-    }
+        })
+        .column("C kN", |bearing| kilo(bearing.c_n))
+        .column("C0 kN", |bearing| kilo(bearing.c0_n))
+        .each(rated.then_some(()), |table, ()| {
+            table
+                .column("P kN", |bearing| kilo(bearing.at_rating.as_ref().and_then(|at| at.p_n)))
+                .column("P0 kN", |bearing| {
+                    kilo(bearing.at_rating.as_ref().and_then(|at| at.p0_n))
+                })
+                .column("L10h h", |bearing| {
+                    whole(bearing.at_rating.as_ref().and_then(|at| at.l10h_h))
+                })
+                .column("n d_m mm/min", |bearing| {
+                    whole(bearing.at_rating.as_ref().and_then(|at| at.speed_factor))
+                })
+        })
+        .finish();
     let note = if rated {
         "  (P, P0, L10h, n d_m: worst of the rated torque and speed in all gears, drive and coast)\n"
     } else {
@@ -289,8 +239,8 @@ fn bearing_table(bearings: &[BearingCard]) -> String {
     format!("{}{note}", table.render())
 }
 
-fn mesh_name(stage: &Stage) -> String {
-    last_key(&stage.mesh).to_owned()
+fn mesh_name(stage: &Stage) -> &str {
+    last_key(&stage.mesh)
 }
 
 /// All data of a stage at full precision, one line each: key and value as in JSON.

@@ -9,7 +9,7 @@ use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::document::{Diagnostic, visible, visible_json};
 use gearloss_framework::evaluate::PowerFlow;
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::head::{hash, inputs};
+use gearloss_studies::engine::head::{hash, inputs};
 use gearloss_studies::study::Study;
 use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, Value as Filled};

@@ -1,7 +1,7 @@
 //! Limits of a study that points or cycles do not keep, in words.
 
 use gearloss_framework::resolve::OWN_MODELS;
-use gearloss_studies::analyses::limits::reached::{LimitReached, Place};
+use gearloss_studies::analyses::common::limits::reached::{LimitReached, Place};
 use gearloss_studies::distinct::distinct;
 
 use crate::names::{listed, model, of_component};
@@ -19,22 +19,20 @@ pub fn add(limits: &[LimitReached], page: &mut Page) {
         page.limits_verdict = verdict(limits);
         headline.push_str(&page.limits_verdict);
     }
-    let mut table = TextTable::new(&["limit", "models", "quantity", "allowed", "worst", "where", "beyond"]);
-    for limit in limits {
-        table.row(vec![
-            limit.limit.clone(),
-            limit.model_set.clone(),
-            of_component(&limit.quantity),
-            bounds(limit),
-            limit.worst.map_or_else(
-                || "unknown".to_owned(),
-                |worst| format!("{}{}", short(worst), after(&limit.unit)),
-            ),
-            place(&limit.at),
-            format!("{} of {}{}", limit.beyond, limit.points, unknown(limit)),
-        ]);
-    }
-    page.table(table.titled("Limits of the study"));
+    let table = TextTable::of(limits)
+        .column("limit", |limit| &limit.limit)
+        .column("models", |limit| &limit.model_set)
+        .column("quantity", |limit| of_component(&limit.quantity))
+        .column("allowed", |limit| bounds(limit))
+        .column("worst", |limit| match limit.worst {
+            Some(worst) => format!("{}{}", short(worst), after(&limit.unit)),
+            None => "unknown".to_owned(),
+        })
+        .column("where", |limit| place(&limit.at))
+        .column("beyond", |limit| {
+            format!("{} of {}{}", limit.beyond, limit.points, unknown(limit))
+        });
+    page.table(table.finish().titled("Limits of the study"));
 }
 
 /// Which limits are kept, as the end of a sentence; nothing if none is broken but some are not known everywhere.

@@ -1,7 +1,7 @@
 //! What is known of the error of the models that bands contain, in words.
 
 use gearloss_framework::resolve::OWN_MODELS;
-use gearloss_studies::analyses::model_error::{ModelError, ModelErrorOfSet, StateOfModelError};
+use gearloss_studies::analyses::common::model_error::{ModelError, ModelErrorOfSet, StateOfModelError};
 
 use crate::page::Page;
 use crate::text::{TextTable, number, significant};
@@ -12,24 +12,7 @@ const NAMED: f64 = 0.05;
 /// Adds the laws as a table, and those without a known error as a sentence.
 pub fn add(all: &[ModelErrorOfSet], page: &mut Page) {
     for of_set in all {
-        let mut table = TextTable::new(&[
-            "law",
-            "in",
-            "components",
-            "% of the loss",
-            "measured sets",
-            "ratio from",
-            "to",
-            "factor 2.5 %",
-            "median",
-            "97.5 %",
-            "error",
-            "others' band contains",
-        ]);
-        for law in &of_set.laws {
-            table.row(row(law));
-        }
-        page.table(table.titled(format!(
+        page.table(table(of_set).titled(format!(
             "Error of the models: factor on the loss, from measured sets{}",
             of_models(&of_set.model_set)
         )));
@@ -63,36 +46,37 @@ fn of_models(set: &str) -> String {
     }
 }
 
-fn row(law: &ModelError) -> Vec<String> {
-    let ratios = || law.sets.iter().map(|set| set.ratio);
-    let ends = [ratios().reduce(f64::min), ratios().reduce(f64::max)];
-    let end = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), two_decimals);
-    let factor = |k: usize| match law.factor {
+fn table(of_set: &ModelErrorOfSet) -> TextTable {
+    let end = |law: &ModelError, end: fn(f64, f64) -> f64| {
+        let ratio = law.sets.iter().map(|set| set.ratio).reduce(end);
+        ratio.map_or_else(|| "-".to_owned(), two_decimals)
+    };
+    let factor = |law: &ModelError, k: usize| match law.factor {
         Some(factor) => two_decimals(factor[k]),
         None => "unknown".to_owned(),
     };
-    vec![
-        name(law),
-        law.kind.clone().unwrap_or_default(),
-        law.components.len().to_string(),
-        number(law.share_of_loss.map(|share| 100.0 * share), 1),
-        law.sets.len().to_string(),
-        end(ends[0]),
-        end(ends[1]),
-        factor(0),
-        factor(1),
-        factor(2),
-        law.state.words().to_owned(),
-        law.left_out.map_or_else(
-            || "-".to_owned(),
-            |left| {
-                format!(
-                    "{} of {} means, all points of {}",
-                    left.means_inside, left.sets, left.points_inside
-                )
-            },
-        ),
-    ]
+    TextTable::of(&of_set.laws)
+        .column("law", |law| name(law))
+        .column("in", |law| law.kind.clone().unwrap_or_default())
+        .column("components", |law| law.components.len().to_string())
+        .column("% of the loss", |law| {
+            number(law.share_of_loss.map(|share| 100.0 * share), 1)
+        })
+        .column("measured sets", |law| law.sets.len().to_string())
+        .column("ratio from", |law| end(law, f64::min))
+        .column("to", |law| end(law, f64::max))
+        .column("factor 2.5 %", |law| factor(law, 0))
+        .column("median", |law| factor(law, 1))
+        .column("97.5 %", |law| factor(law, 2))
+        .column("error", |law| law.state.words())
+        .column("others' band contains", |law| match law.left_out {
+            Some(left) => format!(
+                "{} of {} means, all points of {}",
+                left.means_inside, left.sets, left.points_inside
+            ),
+            None => "-".to_owned(),
+        })
+        .finish()
 }
 
 /// A factor or ratio with two decimals; beyond one hundred or below a hundredth in digits that count.

@@ -37,28 +37,44 @@ fn evaluation(language: &Language, entry: &Entry) -> &'static str {
     if language.is_generic(entry) { GENERIC } else { PLAIN }
 }
 
+/// The grade of the formula; empty if it states none.
+fn grade(entry: &Entry) -> &'static str {
+    let formula = entry.evidence.iter().find(|grade| grade.key.is_empty());
+    formula.map_or("", |grade| grade.grade.name())
+}
+
+/// Parameters with default, range and description, from their schemas.
+fn parameters_table(fields: &[(String, Value)]) -> TextTable {
+    TextTable::of(fields)
+        .column("parameter", |(name, _)| name)
+        .column("default", |(_, field)| match &field["default"] {
+            Value::Null => "-".to_owned(),
+            value => value.to_string(),
+        })
+        .column("range", |(_, field)| {
+            match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
+                (Some(least), Some(greatest)) => format!("{} to {}", significant(least), significant(greatest)),
+                _ => String::new(),
+            }
+        })
+        .column("description", |(_, field)| {
+            field["description"].as_str().unwrap_or_default()
+        })
+        .finish()
+}
+
 /// All models by mechanism, the ratings, the model sets, and the crates with models.
 pub fn models_text(language: &Language) -> String {
     let mut out = Lines::default();
-    let mut table = TextTable::new(&["mechanism", "model", "crate", "evidence", "evaluation", "description"]);
-    for mechanism in language.registry().mechanisms() {
-        for model in language.registry().models(mechanism.key) {
-            let grade = model
-                .evidence
-                .iter()
-                .find(|g| g.key.is_empty())
-                .map_or("", |g| g.grade.name());
-            table.row(vec![
-                mechanism.key.to_owned(),
-                model.name.to_owned(),
-                model.origin.package.name.to_owned(),
-                grade.to_owned(),
-                evaluation(language, model).to_owned(),
-                model.meaning(),
-            ]);
-        }
-    }
-    out.text(&table.render());
+    let mechanisms = language.registry().mechanisms().iter();
+    let table = TextTable::of(mechanisms.flat_map(|mechanism| language.registry().models(mechanism.key)))
+        .column("mechanism", |model| model.mechanism)
+        .column("model", |model| model.name)
+        .column("crate", |model| model.origin.package.name)
+        .column("evidence", |model| grade(model))
+        .column("evaluation", |model| evaluation(language, model))
+        .column("description", |model| model.meaning());
+    out.text(&table.finish().render());
     out.line("");
     out.line("generic: several points at once, exact derivatives; plain: derivatives by differences");
     out.line("");
@@ -86,18 +102,14 @@ pub fn mechanism_text(language: &Language, mechanism: &MechanismEntry) -> String
     }
     out.line(format!("registered at {}", mechanism.origin));
     out.line("");
-    let mut quantities = TextTable::new(&["quantity", "usual", "min", "max", "description", "from"]);
-    for q in (mechanism.quantities)() {
-        quantities.row(vec![
-            q.name.to_owned(),
-            significant(q.usual),
-            significant(q.least),
-            significant(q.greatest),
-            q.doc.trim().to_owned(),
-            q.from.to_owned(),
-        ]);
-    }
-    out.text(&quantities.render());
+    let quantities = TextTable::of((mechanism.quantities)())
+        .column("quantity", |q| q.name)
+        .column("usual", |q| significant(q.usual))
+        .column("min", |q| significant(q.least))
+        .column("max", |q| significant(q.greatest))
+        .column("description", |q| q.doc.trim())
+        .column("from", |q| q.from);
+    out.text(&quantities.finish().render());
     for law in (mechanism.laws)() {
         out.line(format!("law: {law}"));
     }
@@ -125,43 +137,22 @@ pub fn model_text(language: &Language, entry: &Entry) -> String {
         _ => "evaluation: plain: derivatives by differences",
     });
     let schema = language.published(Kind::Gearbox);
-    let fields = parameters(entry, &schema);
-    let mut table = TextTable::new(&["parameter", "default", "range", "description"]);
-    for (name, field) in fields {
-        let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
-            (Some(least), Some(greatest)) => format!("{} to {}", significant(least), significant(greatest)),
-            _ => String::new(),
-        };
-        let default = match &field["default"] {
-            Value::Null => "-".to_owned(),
-            value => value.to_string(),
-        };
-        let doc = field["description"].as_str().unwrap_or_default().to_owned();
-        table.row(vec![name.clone(), default, range, doc]);
-    }
     out.line("");
-    out.text(&table.render());
+    out.text(&parameters_table(&parameters(entry, &schema)).render());
     let coefficients = entry.coefficients();
     if !coefficients.is_empty() {
         out.line(format!(
             "\n{COEFFICIENTS} of the formula, under the key `{COEFFICIENTS}`; published by {}",
             entry.source
         ));
-        let mut table = TextTable::new(&["coefficient", "published", "range", "description"]);
-        for coefficient in coefficients {
-            let range = format!(
-                "{} to {}",
-                significant(coefficient.least),
-                significant(coefficient.greatest)
-            );
-            table.row(vec![
-                coefficient.name,
-                coefficient.published.to_string(),
-                range,
-                coefficient.meaning,
-            ]);
-        }
-        out.text(&table.render());
+        let table = TextTable::of(&coefficients)
+            .column("coefficient", |of| &of.name)
+            .column("published", |of| of.published.to_string())
+            .column("range", |of| {
+                format!("{} to {}", significant(of.least), significant(of.greatest))
+            })
+            .column("description", |of| &of.meaning);
+        out.text(&table.finish().render());
     }
     if !entry.terms.is_empty() {
         let words: Vec<String> = entry

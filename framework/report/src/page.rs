@@ -8,7 +8,7 @@ use std::any::{Any, TypeId};
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::registry::inventory;
 use gearloss_studies::analyses::Outcome;
-use gearloss_studies::analyses::ranges::PublishedCoefficient;
+use gearloss_studies::analyses::common::ranges::PublishedCoefficient;
 use gearloss_studies::correction::UsedCorrection;
 use gearloss_studies::points::Note;
 use gearloss_studies::table::Table;

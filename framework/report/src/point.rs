@@ -15,9 +15,9 @@ use std::fmt::Display;
 use gearloss_framework::evaluate::{PowerFlow, Solution};
 use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::resolve::Resolved;
-use gearloss_framework::transmission::{BearingPair, PlanetShares, Transmission};
+use gearloss_framework::transmission::{BearingPair, PlanetShares, Port, Transmission};
 use gearloss_studies::analyses::balance::BalanceOfPoint;
-use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::pairs::preload_records;
 use gearloss_studies::points::{Found, PreparedPoint, STATIC_SAFETY, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
 
@@ -69,17 +69,15 @@ pub fn heading(transmission: &Transmission, prepared: &PreparedPoint, at: &str) 
 
 /// Speeds, torques and powers at the ports.
 fn ports_table(transmission: &Transmission, solution: &Solution<'_>) -> TextTable {
-    let mut ports = TextTable::new(&["port", "speed rpm", "torque Nm", "power W"]);
-    for (i, port) in transmission.ports().iter().enumerate() {
-        let (speed, torque) = (solution.speed(port.member), solution.known_torque(i));
-        ports.row(vec![
-            port.name.clone(),
-            fixed(speed * RPM, 2),
-            number(torque, 4),
-            number(torque.map(|torque| speed * torque), 2),
-        ]);
-    }
-    ports
+    let speed = |port: &Port| solution.speed(port.member);
+    TextTable::of(transmission.ports().iter().enumerate())
+        .column("port", |(_, port)| &port.name)
+        .column("speed rpm", |(_, port)| fixed(speed(port) * RPM, 2))
+        .column("torque Nm", |(i, _)| number(solution.known_torque(*i), 4))
+        .column("power W", |(i, port)| {
+            number(solution.known_torque(*i).map(|torque| speed(port) * torque), 2)
+        })
+        .finish()
 }
 
 /// The same as text.
@@ -197,21 +195,17 @@ fn planets_text(found: &PlanetShares) -> String {
 
 /// The electric machines at a point.
 fn machines_table(solved: &SolvedPoint<'_>) -> TextTable {
-    let mut machines = TextTable::new(&["machine", "torque Nm", "loss W", "inverter W", "DC power W", "torque"]);
-    for (path, state) in &solved.machines {
-        machines.row(vec![
-            path.clone(),
-            number(Some(state.torque), 4),
-            number(Some(state.machine), 3),
-            number(Some(state.inverter), 3),
-            number(Some(state.electric()), 2),
-            match (state.outside, state.reached) {
-                (true, _) => "outside the map".to_owned(),
-                (false, reached) => reached.name().to_owned(),
-            },
-        ]);
-    }
-    machines
+    TextTable::of(&solved.machines)
+        .column("machine", |(path, _)| path)
+        .column("torque Nm", |(_, state)| number(Some(state.torque), 4))
+        .column("loss W", |(_, state)| number(Some(state.machine), 3))
+        .column("inverter W", |(_, state)| number(Some(state.inverter), 3))
+        .column("DC power W", |(_, state)| number(Some(state.electric()), 2))
+        .column("torque", |(_, state)| match (state.outside, state.reached) {
+            (true, _) => "outside the map",
+            (false, reached) => reached.name(),
+        })
+        .finish()
 }
 
 /// Loads of the bearings of a point with a power flow.

@@ -218,38 +218,29 @@ impl StatedRanges {
 
     /// All of them as a table; absent if there are none.
     pub fn table(&self) -> Option<TextTable> {
-        let mut table = TextTable::new(&[
-            "no.",
-            "models",
-            "quantity",
-            "stated range",
-            "from",
-            "to",
-            "unit",
-            "points outside %",
-            "loss outside %",
-            "source of the range",
-            "analyses",
-        ]);
         let groups = self.groups();
-        for (i, group) in groups.iter().enumerate() {
-            let values = group.values.as_ref();
-            let percent = |share: Option<f64>| number(share.map(|share| 100.0 * share), 1);
-            table.row(vec![
-                (i + 1).to_string(),
-                group.paths.join(", "),
-                group.quantity(),
-                values.map_or_else(|| "left in some samples".to_owned(), |v| v.range.0.clone()),
-                values.map_or_else(String::new, |v| significant(v.least)),
-                values.map_or_else(String::new, |v| significant(v.greatest)),
-                values.map_or_else(String::new, |v| printed_unit(v.unit).to_owned()),
-                percent(values.map(Values::share_of_points)),
-                percent(values.and_then(Values::loss_share)),
-                values.map_or_else(String::new, |v| v.range.1.clone()),
-                group.analyses.join(", "),
-            ]);
-        }
-        (!groups.is_empty()).then_some(table)
+        let known = |group: &Group, cell: fn(&Values) -> String| group.values.as_ref().map(cell).unwrap_or_default();
+        let percent = |group: &Group, share: fn(&Values) -> Option<f64>| {
+            number(group.values.as_ref().and_then(share).map(|share| 100.0 * share), 1)
+        };
+        let table = TextTable::of(groups.iter().enumerate())
+            .column("no.", |(i, _)| (i + 1).to_string())
+            .column("models", |(_, group)| group.paths.join(", "))
+            .column("quantity", |(_, group)| group.quantity())
+            .column("stated range", |(_, group)| match &group.values {
+                Some(values) => values.range.0.clone(),
+                None => "left in some samples".to_owned(),
+            })
+            .column("from", |(_, group)| known(group, |v| significant(v.least)))
+            .column("to", |(_, group)| known(group, |v| significant(v.greatest)))
+            .column("unit", |(_, group)| known(group, |v| printed_unit(v.unit).to_owned()))
+            .column("points outside %", |(_, group)| {
+                percent(group, |v| Some(v.share_of_points()))
+            })
+            .column("loss outside %", |(_, group)| percent(group, Values::loss_share))
+            .column("source of the range", |(_, group)| known(group, |v| v.range.1.clone()))
+            .column("analyses", |(_, group)| group.analyses.join(", "));
+        (!groups.is_empty()).then(|| table.finish())
     }
 }
 

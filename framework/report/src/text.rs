@@ -1,14 +1,15 @@
 //! Numbers and tables as text.
 
+pub use gearloss_studies::analyses::common::numbers::spread_over;
 pub use gearloss_studies::analyses::map::SHOWN;
-pub use gearloss_studies::analyses::numbers::spread_over;
 
 use std::fmt::Write as _;
 
 use gearloss_framework::resolve::OWN_MODELS;
+use gearloss_studies::analyses::common::numbers::tidy;
 use serde::Serialize;
 
-pub use gearloss_studies::analyses::numbers::{beyond, figures, fixed, significant};
+pub use gearloss_studies::analyses::common::numbers::{beyond, figures, fixed, significant};
 
 /// Text that grows line by line.
 #[derive(Debug, Default)]
@@ -41,17 +42,78 @@ pub struct TextTable {
     rows: Vec<Vec<String>>,
 }
 
+/// A table during construction: its rows, and the columns that are complete.
+#[must_use]
+pub struct TextTableOf<R> {
+    rows: Vec<R>,
+    table: TextTable,
+}
+
+impl<R> TextTableOf<R> {
+    /// Adds a column: its name, which ends with its unit, and its cell in each row.
+    pub fn column<C: Into<String>>(mut self, name: impl AsRef<str>, cell: impl Fn(&R) -> C) -> Self {
+        let cells = self.rows.iter().map(|row| cell(row).into());
+        let cells = std::iter::once(printed_head(name)).chain(cells);
+        for (row, cell) in self.table.rows.iter_mut().zip(cells) {
+            row.push(cell);
+        }
+        self
+    }
+
+    /// Adds the columns of each of several items, such as one column per share of the loss.
+    pub fn each<I>(self, items: impl IntoIterator<Item = I>, columns: impl FnMut(Self, I) -> Self) -> Self {
+        items.into_iter().fold(self, columns)
+    }
+
+    /// The table of all columns.
+    pub fn finish(self) -> TextTable {
+        self.table
+    }
+}
+
+/// The name of a column with its unit as it is printed.
+fn printed_head(name: impl AsRef<str>) -> String {
+    let name = name.as_ref();
+    match name.rsplit_once(' ') {
+        Some((quantity, unit)) => format!("{quantity} {}", printed_unit(unit)),
+        None => name.to_owned(),
+    }
+}
+
 impl TextTable {
     /// A table with its header, whose names end with their units.
-    pub fn new(head: &[&str]) -> Self {
-        let printed = |name: &&str| match name.rsplit_once(' ') {
-            Some((quantity, unit)) => format!("{quantity} {}", printed_unit(unit)),
-            None => (*name).to_owned(),
-        };
+    pub fn new<S: AsRef<str>>(head: &[S]) -> Self {
         Self {
             title: String::new(),
-            rows: vec![head.iter().map(printed).collect()],
+            rows: vec![head.iter().map(printed_head).collect()],
         }
+    }
+
+    /// A table with its header and rows.
+    pub fn filled<S: AsRef<str>>(head: &[S], rows: Vec<Vec<String>>) -> Self {
+        let mut table = Self::new(head);
+        table.rows.extend(rows);
+        table
+    }
+
+    /// A table with a row for each of these, whose columns follow: `TextTable::of(nodes).column("node", |node| &node.name).finish()`.
+    pub fn of<R>(rows: impl IntoIterator<Item = R>) -> TextTableOf<R> {
+        let rows: Vec<R> = rows.into_iter().collect();
+        let table = Self {
+            title: String::new(),
+            rows: vec![Vec::new(); rows.len() + 1],
+        };
+        TextTableOf { rows, table }
+    }
+
+    /// A quantity over a grid: a row for each torque in Nm, a column for each speed in rpm, and the cell by their indices.
+    pub fn over_grid(torques: &[f64], speeds: &[f64], cell: impl Fn(usize, usize) -> String) -> Self {
+        Self::of(spread(torques.len()))
+            .column("torque Nm", |t| tidy(torques[*t]).to_string())
+            .each(spread(speeds.len()), |table, s| {
+                table.column(format!("{} rpm", fixed(speeds[s], 0)), |t| cell(*t, s))
+            })
+            .finish()
     }
 
     /// The table with a title.

@@ -4,23 +4,19 @@ use gearloss_studies::points::UnitPoint;
 
 use crate::text::{figures, number};
 
-/// Heads of its columns; none without machines.
-pub fn head(has_unit: bool) -> &'static [&'static str] {
-    let all = &["DC power W", "unit loss W", "system efficiency %"];
-    if has_unit { all } else { &[] }
-}
+/// Head and cell of a column.
+type Column = (&'static str, fn(Option<&UnitPoint>) -> String);
 
-/// Its cells; none without machines.
-pub fn cells(has_unit: bool, unit: Option<&UnitPoint>) -> Vec<String> {
-    if !has_unit {
-        return Vec::new();
-    }
-    let efficiency = unit.and_then(|unit| unit.system_efficiency);
-    vec![
-        number(unit.map(|unit| unit.dc_power_w), 1),
-        number(unit.map(|unit| unit.unit_loss_w), 2),
-        number(efficiency.map(|share| 100.0 * share), 2),
-    ]
+/// Its columns; none without machines.
+pub fn columns(has_unit: bool) -> &'static [Column] {
+    const ALL: [Column; 3] = [
+        ("DC power W", |unit| number(unit.map(|unit| unit.dc_power_w), 1)),
+        ("unit loss W", |unit| number(unit.map(|unit| unit.unit_loss_w), 2)),
+        ("system efficiency %", |unit| {
+            number(unit.and_then(|unit| Some(100.0 * unit.system_efficiency?)), 2)
+        }),
+    ];
+    if has_unit { &ALL } else { &[] }
 }
 
 /// It in one line; nothing without machines.

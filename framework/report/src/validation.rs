@@ -275,39 +275,31 @@ fn table(out: &mut String, head: &[&str], rows: impl Iterator<Item = Vec<String>
 
 /// What the terminal shows: a line for each set, the models over the measured sets, and the sets that wait.
 pub fn text(language: &Language, validated: &Validated<'_>) -> String {
-    let mut sets = TextTable::new(&[
-        "set", "kind", "points", "models", "closest", "ratio", "least", "greatest",
-    ]);
-    for (set, results) in &validated.sets {
-        for judgement in results {
-            let Some((name, all)) = judgement.closest() else {
-                continue;
-            };
-            let [points, models] = judgement.counts();
-            sets.row(vec![
-                set.name.clone(),
-                set.source.kind.words().to_owned(),
-                points.to_string(),
-                models.to_string(),
-                name.to_owned(),
-                ratio_text(all.ratio),
-                ratio_text(all.least),
-                ratio_text(all.greatest),
-            ]);
-        }
-    }
-    let mut models = TextTable::new(&["mechanism", "model", "measured sets", "ratio from", "to"]);
-    for model in over_sets(&validated.cells(language)) {
-        let ends = [model.sets.first(), model.sets.last()];
-        let [from, to] = ends.map(|set| set.map_or_else(String::new, |(_, ratio)| ratio_text(*ratio)));
-        models.row(vec![
-            model.mechanism,
-            model.model,
-            model.sets.len().to_string(),
-            from,
-            to,
-        ]);
-    }
+    let judged = validated.sets.iter().flat_map(|(set, results)| {
+        let closest = results
+            .iter()
+            .filter_map(|judgement| Some((judgement.counts(), judgement.closest()?)));
+        closest.map(move |(counts, closest)| (set, counts, closest))
+    });
+    let sets = TextTable::of(judged)
+        .column("set", |(set, ..)| &set.name)
+        .column("kind", |(set, ..)| set.source.kind.words())
+        .column("points", |(_, [points, _], _)| points.to_string())
+        .column("models", |(_, [_, models], _)| models.to_string())
+        .column("closest", |(.., (name, _))| *name)
+        .column("ratio", |(.., (_, all))| ratio_text(all.ratio))
+        .column("least", |(.., (_, all))| ratio_text(all.least))
+        .column("greatest", |(.., (_, all))| ratio_text(all.greatest))
+        .finish();
+    let ratio = |set: Option<&(String, f64)>| set.map_or_else(String::new, |(_, ratio)| ratio_text(*ratio));
+    let over_sets = over_sets(&validated.cells(language));
+    let models = TextTable::of(&over_sets)
+        .column("mechanism", |model| &model.mechanism)
+        .column("model", |model| &model.model)
+        .column("measured sets", |model| model.sets.len().to_string())
+        .column("ratio from", |model| ratio(model.sets.first()))
+        .column("to", |model| ratio(model.sets.last()))
+        .finish();
     let waiting = validated
         .sets
         .iter()

@@ -1,54 +1,32 @@
-//! Analyses: their entries in a study, computation and outcomes.
+//! Analyses: their entries in a study, computation and outcomes. Each file or folder is one analysis; `common/` has what they share, and
+//! [`engine`](crate::engine) computes what they plan.
 //!
 //! Like a model, an analysis registers itself with [`register_analysis!`](crate::register_analysis), so that the schema, `run`, the
 //! reference and the report find it.
 
-pub mod axes;
 pub mod axle_split;
 pub mod balance;
 pub mod breakdown;
-pub mod chosen;
+pub mod common;
 pub mod compare;
 pub mod component_compare;
 pub mod contact_path;
-mod corrected;
 pub mod cycle;
-pub mod duties;
-pub mod engine;
 pub mod fluid_sweep;
-mod gears;
-pub mod head;
 pub mod identify;
-pub mod inputs;
-pub mod limits;
-mod machine_demand;
 pub mod map;
-pub mod measurable;
-pub mod model_error;
-pub mod numbers;
 pub mod oil_property;
 pub mod operating_points;
 pub mod optimise;
-pub mod outside_maps;
-pub mod plan;
-pub mod planner;
-pub mod progress;
-pub mod ranges;
 pub mod rms_surface;
-pub mod rows;
 pub mod sensitivity;
-pub mod shares;
 pub mod spin_loss;
-pub mod stopped;
 pub mod sweep;
 pub mod temperature_sweep;
 pub mod thermal_limit;
 pub mod tournament;
-pub mod trial;
 pub mod uncertainty;
-pub(crate) mod units;
 pub mod validation;
-mod within;
 
 use std::any::Any;
 use std::fmt;
@@ -63,14 +41,9 @@ use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 
-pub use chosen::Chosen;
-pub use engine::Engine;
-pub use head::Head;
-pub use plan::{BuiltAgain, Plan, Run, Runs, Work};
-pub use planner::{Built, Planner, gear_of};
-pub use stopped::Stopped;
-use within::JobsWithin;
+pub use common::chosen::Chosen;
 
+pub use crate::engine::{Built, BuiltAgain, Engine, Head, Plan, Planner, Run, Runs, Stopped, Work, gear_of};
 use crate::points::Note;
 use crate::study::{ParameterKey, Then, Uses, Write};
 use crate::table::Table;
@@ -84,6 +57,8 @@ pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     const TYPE: &'static str;
     /// The key whose entries may be names of parameters of the study.
     const PARAMETERS: Option<ParameterKey> = None;
+    /// Formats that are written unless the entry states others under `write`.
+    const FORMATS: &'static [Write] = Write::DATA;
     /// What it computes, with all that was read and built for it.
     type Plan<'a>: Plan;
     /// Outcome.
@@ -108,9 +83,6 @@ pub trait Analysis: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     /// # Errors
     /// An interruption by the caller; that points have no solution without which there is no outcome.
     fn reduce<'a>(&'a self, plan: Self::Plan<'a>, engine: &Engine<'a>) -> Result<Self::Outcome, Stopped>;
-
-    /// Requested files.
-    fn formats(&self) -> &[Write];
 }
 
 /// The outcome of an analysis.
@@ -196,6 +168,8 @@ pub struct AnalysisKind {
     pub name: &'static str,
     /// The key whose entries may be names of parameters of the study.
     pub parameters: Option<ParameterKey>,
+    /// Formats that are written unless an entry states others.
+    pub formats: &'static [Write],
     /// Where it is registered.
     pub origin: Origin,
     schema: fn(&mut SchemaGenerator) -> Schema,
@@ -206,7 +180,6 @@ pub struct AnalysisKind {
     plan: fn(&Written, &Planner<'_>) -> Result<Vec<Work>, Stopped>,
     samples: fn(&Written, &Planner<'_>) -> Result<Vec<BuiltAgain>, Stopped>,
     run: fn(&Written, &Engine<'_>) -> Result<Box<dyn Outcome>, Stopped>,
-    formats: fn(&Written) -> &[Write],
     outcome: fn(&mut SchemaGenerator) -> Schema,
 }
 
@@ -218,6 +191,7 @@ impl AnalysisKind {
         Self {
             name: A::TYPE,
             parameters: A::PARAMETERS,
+            formats: A::FORMATS,
             origin,
             schema: SchemaGenerator::subschema_for::<A>,
             own_schema: A::json_schema,
@@ -240,7 +214,6 @@ impl AnalysisKind {
                 let plan = entry.plan(engine.planner())?;
                 Ok(Box::new(entry.reduce(plan, engine)?))
             },
-            formats: |entry| typed::<A>(entry).formats(),
             outcome: SchemaGenerator::subschema_for::<A::Outcome>,
         }
     }
@@ -318,6 +291,8 @@ pub struct AnalysisEntry {
     pub title: Option<String>,
     /// Note in the report.
     pub note: Option<String>,
+    /// Requested files.
+    pub write: Vec<Write>,
     kind: &'static AnalysisKind,
     written: Arc<Written>,
 }
@@ -363,11 +338,6 @@ impl AnalysisEntry {
         (self.kind.run)(self.written.as_ref(), engine)
     }
 
-    /// Requested files.
-    pub fn formats(&self) -> &[Write] {
-        (self.kind.formats)(self.written.as_ref())
-    }
-
     /// The names that it uses.
     pub fn uses(&self) -> Uses<'_> {
         (self.kind.uses)(self.written.as_ref())
@@ -382,7 +352,9 @@ impl AnalysisEntry {
 impl<'de> Deserialize<'de> for AnalysisEntry {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut value = Value::deserialize(deserializer)?;
-        let mut text = |key: &str| match value.as_object_mut().and_then(|record| record.shift_remove(key)) {
+        let mut take = |key: &str| value.as_object_mut().and_then(|record| record.shift_remove(key));
+        let write = take("write");
+        let mut text = |key: &str| match take(key) {
             Some(Value::String(text)) => Some(text),
             _ => None,
         };
@@ -395,10 +367,15 @@ impl<'de> Deserialize<'de> for AnalysisEntry {
             let help = close.map_or_else(String::new, |close| format!(", did you mean `{close}`?"));
             return Err(D::Error::custom(format!("there is no analysis `{name}`{help}")));
         };
+        let write = write
+            .map(serde_json::from_value)
+            .transpose()
+            .map_err(D::Error::custom)?;
         let written = (kind.read)(value).map_err(D::Error::custom)?;
         Ok(Self {
             title,
             note,
+            write: write.unwrap_or_else(|| kind.formats.to_vec()),
             kind,
             written,
         })
@@ -413,6 +390,10 @@ impl JsonSchema for AnalysisEntry {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let variants = AnalysisKind::linked().into_iter().map(|kind| {
             let mut variant = (kind.schema)(generator);
+            let mut write = Vec::<Write>::json_schema(generator);
+            let others = if kind.formats.contains(&Write::Svg) { ", JSON and SVG" } else { " and JSON" };
+            write.insert("description".to_owned(), format!("Formats to write; default: CSV{others}.").into());
+            write.insert("default".to_owned(), serde_json::json!(kind.formats));
             variant.insert("description".to_owned(), kind.meaning().into());
             variant.insert("type".to_owned(), "object".into());
             variant.insert(
@@ -421,6 +402,7 @@ impl JsonSchema for AnalysisEntry {
                     "type": { "type": "string", "const": kind.name },
                     "title": { "type": "string", "description": "Title in the report, also before the result where the study has several analyses of this type; default: the name of the analysis." },
                     "note": { "type": "string", "description": "Note in the report." },
+                    "write": write,
                 }),
             );
             variant.insert("required".to_owned(), serde_json::json!(["type"]));

@@ -6,8 +6,8 @@ use gearloss_framework::files::SharedSource;
 use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 
-use crate::analyses::progress::Progress;
 use crate::analyses::{BuiltAgain, Planner, Stopped, Work};
+use crate::engine::progress::Progress;
 use crate::run::StudyRun;
 use crate::study::{Cautions, Study};
 

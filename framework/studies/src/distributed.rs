@@ -13,8 +13,8 @@ use gearloss_framework::gearbox::Findings;
 use gearloss_framework::language::Language;
 use serde::{Deserialize, Serialize};
 
-use crate::analyses::progress::Progress;
 use crate::analyses::{Engine, Outcome, Planner, Stopped};
+use crate::engine::progress::Progress;
 use crate::run::{FoundSets, StudyRun};
 use crate::study::Study;
 use crate::table::DiscardedRows;

@@ -12,9 +12,10 @@ pub mod study;
 // Sets of data that judge models.
 pub mod corpus;
 
-// Analyses: how a study is run, entries and outcomes, results as columns.
+// Analyses: entries and outcomes, what computes them, how a study is run, results as columns.
 pub mod analyses;
 pub mod distributed;
+pub mod engine;
 pub mod results;
 pub mod run;
 pub mod table;

@@ -8,9 +8,9 @@ use gearloss_framework::language::Language;
 use serde_json::{Map, Value};
 
 use crate::analyses::identify::IdentifyOutcome;
-use crate::analyses::progress::{Progress, Silent};
 use crate::analyses::{AnalysisEntry, BuiltAgain, Engine, Outcome, Planner, Stopped, Work};
 use crate::codes;
+use crate::engine::progress::{Progress, Silent};
 use crate::study::Study;
 
 /// Before the name of an analysis: where its corrections are among the found sets, whose names have no `/`.

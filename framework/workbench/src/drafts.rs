@@ -42,7 +42,7 @@ mod on_disk {
     use std::sync::{Mutex, PoisonError};
 
     use gearloss_framework::files::{LONGEST_TEXT, read_text};
-    use gearloss_studies::analyses::head::{fnv1a_64, hexadecimal};
+    use gearloss_studies::engine::head::{fnv1a_64, hexadecimal};
     use serde::{Deserialize, Serialize};
 
     use super::{Draft, KeptDraft};

@@ -6,7 +6,7 @@ use gearloss_editor::{FileRange, Workspace};
 use gearloss_framework::files::SharedSource;
 use gearloss_framework::language::Language;
 use gearloss_report::schematic::schematic;
-use gearloss_studies::analyses::progress::Progress;
+use gearloss_studies::engine::progress::Progress;
 use serde::Serialize;
 
 use crate::answer::Fault;

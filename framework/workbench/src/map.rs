@@ -6,7 +6,7 @@ use gearloss_framework::files::SharedSource;
 use gearloss_framework::language::Language;
 use gearloss_report::html::Report;
 use gearloss_studies::analyses::Stopped;
-use gearloss_studies::analyses::progress::Progress;
+use gearloss_studies::engine::progress::Progress;
 use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::Study;
 use serde_json::{Value, json};

@@ -7,7 +7,7 @@ use gearloss_report::page::Block;
 use gearloss_report::picture::Picture;
 use gearloss_report::point::{Explained, PointRecord, outside_ranges, point_blocks, ratings_blocks, remarks};
 use gearloss_report::schematic::oil_section;
-use gearloss_studies::analyses::progress::Progress;
+use gearloss_studies::engine::progress::Progress;
 use gearloss_studies::points::SolvedPoint;
 use serde::Serialize;
 

@@ -9,7 +9,7 @@ use gearloss_framework::files::SharedSource;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::{LUBRICANTS, Language, MATERIALS};
 use gearloss_framework::resolve::CatalogueRow;
-use gearloss_studies::analyses::progress::Progress;
+use gearloss_studies::engine::progress::Progress;
 use serde_json::{Value, json};
 
 use crate::answer::Fault;

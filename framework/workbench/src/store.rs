@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use gearloss_document::visible;
 use gearloss_editor::outline;
 use gearloss_framework::files::{InMemory, SharedSource};
-use gearloss_studies::analyses::head::{fnv1a_64, hexadecimal};
+use gearloss_studies::engine::head::{fnv1a_64, hexadecimal};
 use serde::Serialize;
 
 use crate::answer::Fault;

@@ -31,6 +31,17 @@ observed! {
 /// Bevel differential: friction of thrust washers, pinions and teeth; torque bias of an open differential.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
+    /// Friction of the contacts that are no teeth.
+    #[serde(flatten)]
+    pub contacts: ContactFriction,
+    /// Efficiency of the two meshes in series, from one side gear to the other. [-]
+    #[schemars(range(min = 0.5, max = 1.0))]
+    pub mesh_efficiency: f64,
+}
+
+/// Coefficients of friction of the contacts that are no teeth.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+pub struct ContactFriction {
     /// Coefficient of friction of the thrust washers of the side gears. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub friction: f64,
@@ -40,16 +51,6 @@ pub struct Params {
     /// Coefficient of friction of the pinions on their pin; default: `friction`. [-]
     #[schemars(range(min = 0.0, max = 1.0))]
     pub pin_friction: Option<f64>,
-    /// Efficiency of the two meshes in series, from one side gear to the other. [-]
-    #[schemars(range(min = 0.5, max = 1.0))]
-    pub mesh_efficiency: f64,
-}
-
-/// Coefficients of friction of the contacts that are no teeth.
-pub(super) struct ContactFriction {
-    pub washers: f64,
-    pub seats: f64,
-    pub pins: f64,
 }
 
 /// Shares of the torque through a side gear that its washer takes, and of that through a pinion that its seat and its pin take.
@@ -67,9 +68,9 @@ impl Contacts {
         // Sines of the pitch angles.
         let [s_s, s_p] = [z_s, z_p].map(|z| z / z_s.hypot(z_p));
         let r_p = gears.side.radius * z_p / z_s;
-        let washer = friction.washers * thrust * s_s * gears.side.washer_radius / gears.side.radius;
-        let seat = friction.seats * thrust * s_p * gears.pinion.seat_radius;
-        let pin = friction.pins * gears.pinion.pin_radius;
+        let washer = friction.friction * thrust * s_s * gears.side.washer_radius / gears.side.radius;
+        let seat = friction.seat_friction.unwrap_or(friction.friction) * thrust * s_p * gears.pinion.seat_radius;
+        let pin = friction.pin_friction.unwrap_or(friction.friction) * gears.pinion.pin_radius;
         let pinion = (seat + pin) / r_p;
         (washer < 1.0 && pinion < 1.0).then_some(Self { washer, pinion })
     }
@@ -99,12 +100,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<BevelGears, Diagnostic>
 impl BevelGears {
     /// `None` if a washer or a pinion takes the whole torque.
     fn new(params: &Params, gears: &DifferentialGears) -> Option<Self> {
-        let friction = ContactFriction {
-            washers: params.friction,
-            seats: params.seat_friction.unwrap_or(params.friction),
-            pins: params.pin_friction.unwrap_or(params.friction),
-        };
-        let Contacts { washer, pinion } = Contacts::new(&friction, gears)?;
+        let Contacts { washer, pinion } = Contacts::new(&params.contacts, gears)?;
         let mesh = (1.0 - params.mesh_efficiency) / (1.0 + params.mesh_efficiency);
         // From the driving side gear through its washer, a mesh, the pinion and the other mesh to the other washer.
         let one_mesh = params.mesh_efficiency.sqrt();
@@ -187,10 +183,13 @@ mod tests {
     #[test]
     fn the_shares_are_those_of_the_torque_bias() {
         for mesh_efficiency in [1.0, 0.97, 0.9] {
-            let params = Params {
+            let contacts = ContactFriction {
                 friction: 0.08,
                 seat_friction: Some(0.1),
                 pin_friction: None,
+            };
+            let params = Params {
+                contacts,
                 mesh_efficiency,
             };
             let built = BevelGears::new(&params, &GEARS).unwrap();
@@ -203,10 +202,13 @@ mod tests {
 
     #[test]
     fn without_friction_nothing_is_lost() {
-        let params = Params {
+        let contacts = ContactFriction {
             friction: 0.0,
             seat_friction: None,
             pin_friction: None,
+        };
+        let params = Params {
+            contacts,
             mesh_efficiency: 1.0,
         };
         let built = BevelGears::new(&params, &GEARS).unwrap();

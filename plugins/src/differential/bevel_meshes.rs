@@ -25,15 +25,9 @@ use super::bevel_gears::{BIAS, ContactFriction, Contacts, PINIONS, RATIO, TEETH,
 /// Bevel differential whose gears are meshes of bevel gears: torque bias of an open differential from laws of tooth friction.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Params {
-    /// Coefficient of friction of the thrust washers of the side gears. [-]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub friction: f64,
-    /// Coefficient of friction of the pinions on their seats; default: `friction`. [-]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub seat_friction: Option<f64>,
-    /// Coefficient of friction of the pinions on their pin; default: `friction`. [-]
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub pin_friction: Option<f64>,
+    /// Friction of the contacts that are no teeth.
+    #[serde(flatten)]
+    pub contacts: ContactFriction,
     /// Loss of a pinion in mesh with a side gear.
     pub mesh: ModelRef<BevelMesh>,
 }
@@ -54,12 +48,7 @@ fn prepare(params: Params, cx: &mut Build<'_>) -> Result<BevelMeshes, Diagnostic
             .error("bevel_meshes requires the gears of the differential with their teeth")
             .help("add `teeth: { pinions, facewidth, ra }` to `gears`, or use `bevel_gears` with a mesh efficiency"));
     };
-    let friction = ContactFriction {
-        washers: params.friction,
-        seats: params.seat_friction.unwrap_or(params.friction),
-        pins: params.pin_friction.unwrap_or(params.friction),
-    };
-    let Some(contacts) = Contacts::new(&friction, &gears) else {
+    let Some(contacts) = Contacts::new(&params.contacts, &gears) else {
         return Err(cx
             .error("friction takes the whole torque: the differential would lock itself")
             .help("correct the coefficients of friction and the radii"));

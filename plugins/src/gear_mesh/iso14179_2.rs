@@ -18,11 +18,8 @@ use gearloss_framework::{limits, observed, register, terms};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::boundary::greatest;
 use crate::checks::SIX_DIGITS;
-use crate::mean_friction::schlenk::{
-    Constants, LINE_LOAD, MU, Mesh, OilType, PITCH_SPEED, Schlenk, SpeedClamp, VISCOSITY,
-};
+use crate::mean_friction::schlenk::{LINE_LOAD, MU, Mesh, PITCH_SPEED, Schlenk, VISCOSITY};
 
 terms! { SLIDING = load("sliding"); }
 limits! {
@@ -49,30 +46,12 @@ pub enum LossFactor {
 /// Loss factor of Ohlendorf and mean friction of Schlenk, as in ISO/TR 14179-2.
 #[derive(Debug, Deserialize, JsonSchema)]
 pub struct Iso14179 {
-    /// Lubricant factor; default: that of `oil`, else that of the lubricant. [-]
-    #[schemars(range(min = 0.1, max = 2.0))]
-    pub x_l: Option<f64>,
-    /// Oil type that selects the lubricant factor.
-    pub oil: Option<OilType>,
-    /// Below 150 N/mm the friction is that at 150 N/mm.
-    #[serde(default = "yes")]
-    pub clamp_line_load: bool,
-    /// Speed that the upper clamp limits.
-    #[serde(default)]
-    pub clamp_speed: SpeedClamp,
-    /// Maximum coefficient of friction; boundary friction limits the growth of the formula at creeping speeds. [-]
-    #[serde(default = "greatest")]
-    #[schemars(range(min = 0.01, max = 1.0))]
-    pub greatest: f64,
+    /// Mean friction.
+    #[serde(flatten)]
+    pub friction: Schlenk,
     /// Loss factor.
     #[serde(default)]
     pub loss_factor: LossFactor,
-    #[serde(default)]
-    coefficients: Constants,
-}
-
-fn yes() -> bool {
-    true
 }
 
 /// One pair, prepared.
@@ -85,20 +64,13 @@ struct Mean {
 }
 
 impl Mean {
-    fn new(params: &Iso14179, pair: &Pair) -> Self {
+    fn new(params: Iso14179, pair: &Pair) -> Self {
         let loss_factor = match params.loss_factor {
             LossFactor::Ohlendorf => pair.loss_factor_ohlendorf(),
             LossFactor::Uniform => pair.loss_factor_uniform(),
         };
         Self {
-            friction: Schlenk {
-                x_l: params.x_l,
-                oil: params.oil,
-                clamp_line_load: params.clamp_line_load,
-                clamp_speed: params.clamp_speed,
-                greatest: params.greatest,
-                coefficients: params.coefficients,
-            },
+            friction: params.friction,
             loss_factor,
             ohlendorf: params.loss_factor == LossFactor::Ohlendorf,
             sum_per_speed: 2.0 * pair.working_angle.sin(),
@@ -108,7 +80,7 @@ impl Mean {
 
 fn prepare(params: Iso14179, cx: &mut Build<'_>) -> Result<Mean, Diagnostic> {
     let part = cx.own_part::<GearMesh>()?;
-    Ok(Mean::new(&params, &part.pair))
+    Ok(Mean::new(params, &part.pair))
 }
 
 impl GearMeshLaw for Mean {
@@ -170,16 +142,19 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::gear_mesh::path_integral::tests::fzg_c14;
+    use crate::mean_friction::schlenk::{Constants, SpeedClamp};
     use gearloss_framework::loss::Notes;
 
     const PLAIN: Iso14179 = Iso14179 {
-        coefficients: Constants::PUBLISHED,
-        x_l: Some(1.0),
-        oil: None,
-        clamp_line_load: true,
-        clamp_speed: SpeedClamp::SumSpeed,
+        friction: Schlenk {
+            coefficients: Constants::PUBLISHED,
+            x_l: Some(1.0),
+            oil: None,
+            clamp_line_load: true,
+            clamp_speed: SpeedClamp::SumSpeed,
+            greatest: 0.2,
+        },
         loss_factor: LossFactor::Ohlendorf,
-        greatest: 0.2,
     };
 
     #[test]
@@ -190,7 +165,7 @@ mod tests {
                 to.torque = torque;
                 to.speed = speed;
             });
-            Mean::new(&PLAIN, &part.pair).loss(&at).unwrap().total_watts(speed)
+            Mean::new(PLAIN, &part.pair).loss(&at).unwrap().total_watts(speed)
         };
         assert_eq!((watts(0.0, 100.0), watts(10.0, 0.0)), (0.0, 0.0));
         assert!(watts(20.0, 100.0) > watts(10.0, 100.0) && watts(10.0, 100.0) == watts(10.0, -100.0));

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use gearloss_framework::document::read_yaml;
 use gearloss_framework::files::{LONGEST_DATA, read_bytes};
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::head::{hash_of, inputs};
+use gearloss_studies::engine::head::{hash_of, inputs};
 use gearloss_studies::study::Study;
 use gearloss_studies::tasks::StorageError;
 use serde::de::DeserializeOwned;

@@ -7,10 +7,10 @@ use std::path::PathBuf;
 
 use gearloss_framework::language::Language;
 use gearloss_report::html::{Report, Section};
-use gearloss_studies::analyses::limits::reached::LimitReached;
-use gearloss_studies::analyses::progress::{Progress, Steps};
+use gearloss_studies::analyses::common::limits::reached::LimitReached;
 use gearloss_studies::analyses::{AnalysisEntry, Engine, Outcome, Planner};
 use gearloss_studies::distinct::distinct;
+use gearloss_studies::engine::progress::{Progress, Steps};
 use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::{LimitEntry, Severity, Study, Write};
 use gearloss_studies::tasks::TaskResults;
@@ -154,7 +154,7 @@ impl<'a> Run<'a> {
         self.report
             .borrow_mut()
             .begin(&self.study.entry.analyses, name, analysis);
-        let tables = Tables::new(&self.files, analysis.formats());
+        let tables = Tables::new(&self.files, &analysis.write);
         let study = self.analyses.study_for_analysis();
         let planner = Planner::new(self.language, &study, name);
         let runner = Runner {
@@ -167,7 +167,7 @@ impl<'a> Run<'a> {
                 drop(runner);
                 let tables = tables.finish(&outcome.tables())?;
                 shown?;
-                if analysis.formats().contains(&Write::Xlsx) {
+                if analysis.write.contains(&Write::Xlsx) {
                     write::workbook(self, name, &tables)?;
                 }
                 Ok(())
@@ -199,7 +199,7 @@ impl Runner<'_> {
         self.run.broken.borrow_mut().extend(broken);
         let mut page = self.run.report.borrow_mut().page(self.name, outcome);
         self.run.shown.page(&page, out)?;
-        let formats = analysis.formats();
+        let formats = &analysis.write;
         for file in outcome.files() {
             write::keep(self.run, &file.name, Ok(file.text.into_bytes()))?;
         }

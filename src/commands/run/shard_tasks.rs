@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use gearloss_studies::analyses::Stopped;
-use gearloss_studies::analyses::head::fnv1a_64;
+use gearloss_studies::engine::head::fnv1a_64;
 use gearloss_studies::study::Study;
 use gearloss_studies::tasks::{StorageError, Task, TaskResults};
 

@@ -6,7 +6,7 @@ use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
 use gearloss_framework::files::{LONGEST_DATA, open_regular};
-use gearloss_studies::analyses::head::fnv1a_64;
+use gearloss_studies::engine::head::fnv1a_64;
 
 use super::folder::is_regular;
 

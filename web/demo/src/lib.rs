@@ -11,7 +11,7 @@ use std::cell::{OnceCell, RefCell};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::progress::Silent;
+use gearloss_studies::engine::progress::Silent;
 use gearloss_workbench::request::Request;
 use gearloss_workbench::store::Memory;
 use gearloss_workbench::{Listener, Session};

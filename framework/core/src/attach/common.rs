@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::description::MeshCommon;
+use crate::description::{MeshCommon, OilOfComponent};
 
 /// Common keys of every component, independent of its mechanism.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -27,10 +27,10 @@ pub struct Common {
 
 impl Common {
     /// The common keys of an entry that states them itself; its count is one.
-    pub fn of(lubricant: Option<&String>, temperature_offset: f64, loss_factor: f64) -> Self {
+    pub fn of(oil: &OilOfComponent, loss_factor: f64) -> Self {
         Self {
-            lubricant: lubricant.cloned(),
-            temperature_offset,
+            lubricant: oil.lubricant.clone(),
+            temperature_offset: oil.temperature_offset,
             loss_factor,
             count: 1,
         }
@@ -39,7 +39,7 @@ impl Common {
 
 impl From<&MeshCommon> for Common {
     fn from(mesh: &MeshCommon) -> Self {
-        Self::of(mesh.lubricant.as_ref(), mesh.temperature_offset, mesh.loss_factor)
+        Self::of(&mesh.oil, mesh.loss_factor)
     }
 }
 

@@ -5,6 +5,7 @@ use serde::Deserialize;
 
 use super::Ordered;
 use super::defaults::default_one;
+use super::every_mesh::OilOfComponent;
 use crate::mechanism::ModelRef;
 use crate::mechanism::chain::{Chain, ChainKind, ChainPart};
 use crate::mechanism::joint::{Joint, JointKind};
@@ -43,13 +44,9 @@ pub struct ChainEntry {
     /// Mass of the whole chain or belt, for its centrifugal force; requires `links`. [kg]
     #[schemars(range(min = 0.0, max = 1000.0))]
     pub mass: Option<f64>,
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature at the chain minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
+    /// Its oil.
+    #[serde(flatten)]
+    pub oil: OilOfComponent,
     /// Factor on the loss, for effects that the model does not include. An identification may fit it. [-]
     #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]

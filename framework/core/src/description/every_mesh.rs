@@ -1,20 +1,28 @@
-//! What the entries of several kinds of meshes have in common.
+//! What the entries of several kinds of components have in common.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::defaults::default_one;
+
+/// The oil of a component.
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+pub struct OilOfComponent {
+    /// Oil; default: that of the housing.
+    #[schemars(extend("x-refers-to" = "lubricants"))]
+    pub lubricant: Option<String>,
+    /// Oil temperature at the component minus that of the sump. [K]
+    #[serde(default)]
+    #[schemars(range(min = -200.0, max = 200.0))]
+    pub temperature_offset: f64,
+}
 
 /// What the entries of all kinds of meshes state alike.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MeshCommon {
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature in the mesh minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
+    /// Its oil.
+    #[serde(flatten)]
+    pub oil: OilOfComponent,
     /// Factor on the loss of the teeth in mesh, without drag losses, for effects that the model does not include. An identification
     /// may fit it. [-]
     #[serde(default = "default_one")]

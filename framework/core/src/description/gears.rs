@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::defaults::default_one;
-use super::every_mesh::{MeshCommon, MeshMetal};
+use super::every_mesh::{MeshCommon, MeshMetal, OilOfComponent};
 use super::housing::WallClearance;
 use super::pins::PinsEntry;
 use super::shafts::Unsupported;
@@ -74,13 +74,9 @@ pub struct GearEntry {
     pub level: Option<f64>,
     /// Gap between this gear and a baffle, shroud or wall near it, for drag models that have one; default: that of the housing.
     pub clearance: Option<WallClearance>,
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature at the gear minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
+    /// Its oil.
+    #[serde(flatten)]
+    pub oil: OilOfComponent,
     /// Factor on the drag losses of the gear, for effects that the model does not include; drags at a mesh use the mean of both
     /// gears. An identification may fit it. [-]
     #[serde(default = "default_one")]
@@ -229,13 +225,9 @@ pub struct PlanetarySetEntry {
     /// Ratio of the gearbox in its family, for drag tables with that axis. [-]
     #[schemars(range(min = 0.001, max = 10000.0))]
     pub ratio: Option<f64>,
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature at the set minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
+    /// Its oil.
+    #[serde(flatten)]
+    pub oil: OilOfComponent,
     /// Factor on the drag loss of the set, for effects that the model does not include. An identification may fit it. [-]
     #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]
@@ -270,13 +262,9 @@ pub struct DifferentialEntry {
     /// Friction between both sides that does not depend on torque, as of a limited slip differential with springs or preloaded discs (the
     /// moment of one side against the case), or of a viscous lock.
     pub locking: Option<ModelRef<Clutch>>,
-    /// Oil; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature at the differential minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
+    /// Its oil.
+    #[serde(flatten)]
+    pub oil: OilOfComponent,
     /// Factor on the losses, for effects that the models do not include. An identification may fit it. [-]
     #[serde(default = "default_one")]
     #[schemars(range(min = 0.0, max = 100.0))]

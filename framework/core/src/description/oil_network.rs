@@ -4,19 +4,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Ordered;
+use super::every_mesh::OilOfComponent;
 use crate::hydraulics::{Orifice, Rib};
 
 /// A network of oil flows. Elements lead from `sump` or a junction to a junction, a chamber, `sump` or `housing`, the air of the housing.
 /// Pressures are those over the air of the housing.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct OilNetworkEntry {
-    /// Oil of a circuit with neither `sump` nor chambers; default: that of the housing.
-    #[schemars(extend("x-refers-to" = "lubricants"))]
-    pub lubricant: Option<String>,
-    /// Oil temperature in the network minus that of the sump. [K]
-    #[serde(default)]
-    #[schemars(range(min = -200.0, max = 200.0))]
-    pub temperature_offset: f64,
+    /// Its oil; only a circuit with neither `sump` nor chambers may have another one than the housing.
+    #[serde(flatten)]
+    pub oil: OilOfComponent,
     /// Volume share of free air in the oil: lowers the density, raises the viscosity, and pumps deliver less oil; 0 to 0.2. [-]
     #[serde(default)]
     #[schemars(range(min = 0.0, max = 0.5))]
@@ -183,20 +180,9 @@ pub struct NozzleEntry {
     #[serde(default = "housing")]
     #[schemars(extend("x-refers-to" = ["oil_network.junctions", "oil_network.chambers", "sump", "housing"]))]
     pub to: String,
-    /// Diameter. [mm]
-    #[schemars(range(min = 0.01, max = 1e3))]
-    pub diameter: f64,
-    /// Length; zero for a sharp edge. [mm]
-    #[serde(default)]
-    #[schemars(range(min = 0.0, max = 1e4))]
-    pub length: f64,
-    /// Discharge coefficient; default: 0.61 if it is shorter than its diameter, else 0.8; 0.95 if its inlet is rounded. [-]
-    #[schemars(range(min = 0.05, max = 1.0))]
-    pub discharge: Option<f64>,
-    /// Number of equal nozzles. [-]
-    #[serde(default = "default_one")]
-    #[schemars(range(min = 1, max = 10000))]
-    pub count: u32,
+    /// Its hole.
+    #[serde(flatten)]
+    pub hole: HoleEntry,
     /// Components that its oil reaches, in equal shares, such as `meshes.M1`.
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "component"))]

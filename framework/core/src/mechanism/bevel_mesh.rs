@@ -10,8 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::description::{BevelAxes, BevelPair, BevelTeeth};
 use crate::loss::{Loss, Term, Undefined};
-use crate::material::Material;
-use crate::mechanism::gear_mesh::{GearMeshAt, MeshOil, MeshPart, steel, steel_poisson};
+use crate::mechanism::gear_mesh::{FlankSurfaces, GearMeshAt, MeshOil, MeshPart, SurfacesEntry};
 use crate::mechanism::mesh_law::mesh_laws;
 use crate::mechanism::{Mechanism, described_as, with_oil};
 use crate::real::{Mask as _, Real};
@@ -52,35 +51,13 @@ pub struct BevelEntry {
     /// The teeth.
     #[serde(flatten)]
     pub teeth: BevelTeeth,
-    /// Arithmetic mean roughness of the flanks. [um]
-    #[schemars(inner(range(min = 0.001, max = 50.0)))]
-    pub ra: [f64; 2],
-    /// Root mean square roughness of the flanks. [um]
-    #[schemars(inner(range(min = 0.001, max = 50.0)))]
-    pub rq: [f64; 2],
-    /// Young's modulus of both gears. [GPa]
-    #[serde(default = "steel")]
-    #[schemars(range(min = 0.1, max = 1000.0))]
-    pub elastic_modulus: f64,
-    /// Poisson's ratio of both gears. [-]
-    #[serde(default = "steel_poisson")]
-    #[schemars(range(min = 0.0, max = 0.49))]
-    pub poisson: f64,
+    /// Roughness and elasticity.
+    #[serde(flatten)]
+    pub surfaces: SurfacesEntry,
 }
 
 fn right_angle() -> f64 {
     std::f64::consts::FRAC_PI_2
-}
-
-/// Roughness and material of the flanks of both gears. SI.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FlankSurfaces {
-    /// Arithmetic mean roughness. \[m\]
-    pub ra: [f64; 2],
-    /// Root mean square roughness. \[m\]
-    pub rq: [f64; 2],
-    /// Materials.
-    pub materials: [Material; 2],
 }
 
 /// A bevel or hypoid pair, complete.
@@ -96,10 +73,8 @@ pub struct BevelPart {
 impl BevelPart {
     /// A pair with its surfaces, and the oil of the mesh.
     pub fn new(pair: BevelPair, surfaces: FlankSurfaces, oil: Option<&MeshOil>) -> Self {
-        let flanks = pair.flanks.map(|flanks| {
-            let FlankSurfaces { ra, rq, materials } = surfaces;
-            MeshPart::of_materials(flanks, ra, rq, materials).with_oil(oil.cloned())
-        });
+        let flanks = pair.flanks;
+        let flanks = flanks.map(|flanks| MeshPart::of_surfaces(flanks, surfaces).with_oil(oil.cloned()));
         Self { pair, flanks }
     }
 }
@@ -118,12 +93,7 @@ impl TryFrom<BevelEntry> for BevelPart {
         };
         let pair = entry.teeth.pair(&axes);
         let pair = pair.map_err(|fault| fault.to_string())?;
-        let surfaces = FlankSurfaces {
-            ra: entry.ra,
-            rq: entry.rq,
-            materials: [Material::metal(entry.elastic_modulus, entry.poisson); 2],
-        };
-        Ok(Self::new(pair, surfaces, None))
+        Ok(Self::new(pair, entry.surfaces.surfaces(), None))
     }
 }
 

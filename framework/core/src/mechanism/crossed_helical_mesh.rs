@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Pair;
 use crate::geometry::crossed::{PitchCones, TeethFault};
 use crate::loss::{Loss, Term};
-use crate::material::{Material, reduced_modulus};
-use crate::mechanism::gear_mesh::{GearMeshAt, MeshPart, steel, steel_poisson};
+use crate::material::reduced_modulus;
+use crate::mechanism::gear_mesh::{FlankSurfaces, GearMeshAt, MeshPart, SurfacesEntry};
 use crate::mechanism::mesh_law::mesh_laws;
 use crate::mechanism::{Mechanism, described_as, with_oil};
 use crate::real::Real;
@@ -51,20 +51,9 @@ pub struct CrossedHelicalEntry {
     /// Tip diameters; default: an addendum of one normal module. [mm]
     #[schemars(inner(range(min = 1.0, max = 1e4)))]
     pub tip_diameter: Option<[f64; 2]>,
-    /// Arithmetic mean roughness of the flanks. [um]
-    #[schemars(inner(range(min = 0.001, max = 50.0)))]
-    pub ra: [f64; 2],
-    /// Root mean square roughness of the flanks. [um]
-    #[schemars(inner(range(min = 0.001, max = 50.0)))]
-    pub rq: [f64; 2],
-    /// Young's modulus of both gears. [GPa]
-    #[serde(default = "steel")]
-    #[schemars(range(min = 0.1, max = 1000.0))]
-    pub elastic_modulus: f64,
-    /// Poisson's ratio of both gears. [-]
-    #[serde(default = "steel_poisson")]
-    #[schemars(range(min = 0.0, max = 0.49))]
-    pub poisson: f64,
+    /// Roughness and elasticity.
+    #[serde(flatten)]
+    pub surfaces: SurfacesEntry,
 }
 
 fn usual_angle() -> f64 {
@@ -82,22 +71,21 @@ pub struct CrossedHelicalPart {
 }
 
 impl CrossedHelicalPart {
-    /// A pair with its cylinders, normal pressure angle and tip radii; roughness Ra and Rq of both flanks, and materials. SI.
+    /// A pair with its cylinders, normal pressure angle, tip radii and surfaces. SI.
     ///
     /// # Errors
     /// All faults that make the teeth impossible.
     pub fn new(
         cylinders: &PitchCones,
         (pressure_angle, tip_radius): (f64, [f64; 2]),
-        [ra, rq]: [[f64; 2]; 2],
-        materials: [Material; 2],
+        surfaces: FlankSurfaces,
     ) -> Result<Self, Vec<TeethFault>> {
-        let modulus = reduced_modulus(materials.map(|material| material.elastic));
+        let modulus = reduced_modulus(surfaces.materials.map(|material| material.elastic));
         let pair = Pair::crossed_helical(cylinders, pressure_angle, tip_radius, modulus)?;
         let motion = pair.crossed.as_ref();
         let at_pitch = motion.map_or([0.0; 2], |motion| [motion.sliding_speed(0.0), motion.friction_arm(0.0)]);
         Ok(Self {
-            flanks: MeshPart::of_materials(pair, ra, rq, materials),
+            flanks: MeshPart::of_surfaces(pair, surfaces),
             at_pitch,
         })
     }
@@ -118,13 +106,8 @@ impl TryFrom<CrossedHelicalEntry> for CrossedHelicalPart {
         }
         let tips = cylinders.radius.map(|r| r + entry.normal_module);
         let tips = entry.tip_diameter.map_or(tips, |tips| tips.map(|d| 0.5 * d));
-        Self::new(
-            &cylinders,
-            (entry.pressure_angle, tips),
-            [entry.ra, entry.rq],
-            [Material::metal(entry.elastic_modulus, entry.poisson); 2],
-        )
-        .map_err(|faults| faults.iter().map(TeethFault::to_string).collect::<Vec<_>>().join("; "))
+        Self::new(&cylinders, (entry.pressure_angle, tips), entry.surfaces.surfaces())
+            .map_err(|faults| faults.iter().map(TeethFault::to_string).collect::<Vec<_>>().join("; "))
     }
 }
 

@@ -65,6 +65,25 @@ pub struct PairEntry {
     /// Effective face width. [mm]
     #[schemars(range(min = 0.1, max = 2000.0))]
     pub facewidth: f64,
+    /// Roughness and elasticity.
+    #[serde(flatten)]
+    pub surfaces: SurfacesEntry,
+    /// Materials of both gears instead of one modulus, with all values that are needed.
+    pub materials: Option<[MaterialEntry; 2]>,
+    /// Modifications of the flanks of both gears, for load sharing in thin slices.
+    pub modification: Option<[FlankModification; 2]>,
+    /// Diameters of the bores of both gears, for `stiffness: sainsot` of thin slices. [mm]
+    #[schemars(inner(range(min = 0.1, max = 1e4)))]
+    pub bore: Option<[f64; 2]>,
+    /// Misalignment of the flanks over the face width, positive if the end of the face opens. [um]
+    #[serde(default)]
+    #[schemars(range(min = -1000.0, max = 1000.0))]
+    pub misalignment: f64,
+}
+
+/// Roughness and elasticity of the flanks of a pair that is written for a single model.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+pub struct SurfacesEntry {
     /// Arithmetic mean roughness of the flanks. [um]
     #[schemars(inner(range(min = 0.001, max = 50.0)))]
     pub ra: [f64; 2],
@@ -79,17 +98,28 @@ pub struct PairEntry {
     #[serde(default = "steel_poisson")]
     #[schemars(range(min = 0.0, max = 0.49))]
     pub poisson: f64,
-    /// Materials of both gears instead of one modulus, with all values that are needed.
-    pub materials: Option<[MaterialEntry; 2]>,
-    /// Modifications of the flanks of both gears, for load sharing in thin slices.
-    pub modification: Option<[FlankModification; 2]>,
-    /// Diameters of the bores of both gears, for `stiffness: sainsot` of thin slices. [mm]
-    #[schemars(inner(range(min = 0.1, max = 1e4)))]
-    pub bore: Option<[f64; 2]>,
-    /// Misalignment of the flanks over the face width, positive if the end of the face opens. [um]
-    #[serde(default)]
-    #[schemars(range(min = -1000.0, max = 1000.0))]
-    pub misalignment: f64,
+}
+
+impl SurfacesEntry {
+    /// The surfaces, both gears of this metal.
+    pub fn surfaces(&self) -> FlankSurfaces {
+        FlankSurfaces {
+            ra: self.ra,
+            rq: self.rq,
+            materials: [Material::metal(self.elastic_modulus, self.poisson); 2],
+        }
+    }
+}
+
+/// Roughness and material of the flanks of both gears. SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlankSurfaces {
+    /// Arithmetic mean roughness. \[m\]
+    pub ra: [f64; 2],
+    /// Root mean square roughness. \[m\]
+    pub rq: [f64; 2],
+    /// Materials.
+    pub materials: [Material; 2],
 }
 
 /// The materials of a pair that is written for a single model.
@@ -156,11 +186,12 @@ impl PartialEq for MeshOil {
 impl MeshPart {
     /// A pair with its computed geometry, from roughness of both flanks (m), Young's modulus (Pa) and Poisson's ratio.
     pub fn new(pair: Pair, ra: [f64; 2], rq: [f64; 2], elastic_modulus: f64, poisson: f64) -> Self {
-        Self::of_materials(pair, ra, rq, [Material::metal(elastic_modulus, poisson); 2])
+        let materials = [Material::metal(elastic_modulus, poisson); 2];
+        Self::of_surfaces(pair, FlankSurfaces { ra, rq, materials })
     }
 
-    /// A pair with its computed geometry, from roughness (m) and materials of both gears.
-    pub fn of_materials(pair: Pair, ra: [f64; 2], rq: [f64; 2], materials: [Material; 2]) -> Self {
+    /// A pair with its computed geometry and its surfaces.
+    pub fn of_surfaces(pair: Pair, FlankSurfaces { ra, rq, materials }: FlankSurfaces) -> Self {
         Self {
             pair,
             ra: 0.5 * (ra[0] + ra[1]),
@@ -276,11 +307,11 @@ impl TryFrom<PairEntry> for MeshPart {
         })
         .map_err(|faults| faults.iter().map(PairFault::to_string).collect::<Vec<_>>().join("; "))?;
         let flanks = entry.modification.unwrap_or_default();
-        let materials = match &entry.materials {
-            Some(materials) => materials_of_pair(materials)?,
-            None => [Material::metal(entry.elastic_modulus, entry.poisson); 2],
-        };
-        let part = Self::of_materials(pair, entry.ra, entry.rq, materials);
+        let mut surfaces = entry.surfaces.surfaces();
+        if let Some(materials) = &entry.materials {
+            surfaces.materials = materials_of_pair(materials)?;
+        }
+        let part = Self::of_surfaces(pair, surfaces);
         let bores = entry.bore.map_or([None; 2], |bores| bores.map(Some));
         Ok(part.with_flanks(flanks, entry.misalignment).with_bores(bores))
     }

@@ -77,15 +77,7 @@ context! {
         ra: 0.4 in 0.01..=5.0 from "`surface.ra` of both gears",
         /// Root mean square roughness of both flanks together. [um]
         rq: 0.707 in 0.01..=5.0 from "`surface.rq` of both gears",
-        ..oil from "the oil of the mesh",
-        /// Pressure-viscosity coefficient of the oil. [1/GPa]
-        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative decrease of the oil's viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
-        /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
-        /// Lubricant factor stated for the oil. [-]
-        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
+        ..oil of contacts from "the oil of the mesh",
     } laws {
         "normal_force = line_load facewidth/cos beta_b" {
             normal_force: |at| at.line_load * at.part.pair.line_length(),

@@ -297,24 +297,8 @@ context! {
         ra: 0.4 in 0.01..=5.0 from "`surface.ra` of both gears",
         /// Root mean square roughness of both flanks together. [um]
         rq: 0.5 in 0.01..=5.0 from "`surface.rq` of both gears",
-        /// Temperature of the oil that enters the contact. [degC]
-        temperature: 80.0 in -40.0..=200.0 from "the oil of the mesh, with its `temperature_offset`",
-        /// Kinematic viscosity of that oil. [mm2/s]
-        nu: 10.0 in 1.0..=10000.0 from "the viscosity of that oil at this temperature",
-        /// Dynamic viscosity of that oil. [mPa s]
-        eta: 8.2 in 0.5..=10000.0 from "`nu` times `rho`",
-        /// Density of that oil. [kg/m3]
-        rho: 820.0 in 500.0..=1300.0 from "the density of that oil at this temperature",
-        /// Pressure-viscosity coefficient of that oil. [1/GPa]
-        alpha: 15.0 in 1.0..=60.0 from "`pressure_viscosity` of the oil, or its kind",
-        /// Relative decrease of the oil's viscosity with temperature. [1/K]
-        beta: 0.03 in 0.001..=0.3 from "the slope of its viscosity at this temperature",
-        /// Thermal conductivity of the oil. [W/(m K)]
-        conductivity: 0.135 in 0.05..=0.5 from "`conductivity` of the oil, else its density according to Cragoe",
-        /// Lubricant factor of mean mesh friction. [-]
-        x_l: 1.0 in 0.1..=2.0 from "`x_l` of the oil, or its kind",
+        ..oil of contacts from "the oil that enters the contact",
     } laws {
-        "eta = nu rho" { eta: |at| at.nu * at.rho, nu: |at| at.eta / at.rho, rho: |at| at.eta / at.nu }
         "pressure = sqrt(line_load modulus/(2 pi radius))" {
             pressure: |at| hertz(at.line_load, at.modulus, at.radius),
             line_load: |at| load_at(at.pressure, at.modulus, at.radius),

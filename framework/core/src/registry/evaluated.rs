@@ -25,12 +25,7 @@ pub struct Evaluated {
 impl Evaluated {
     /// The value of a step of the formula, in the unit of its source; the last one if it was taken several times.
     pub fn step(&self, symbol: &str) -> Option<f64> {
-        self.steps.iter().rev().find_map(|(_, step)| match step {
-            Step::Value {
-                symbol: name, value, ..
-            } if *name == symbol => Some(*value),
-            _ => None,
-        })
+        step(&self.steps, symbol)
     }
 
     /// Names of the limits that the point exceeds.
@@ -40,4 +35,14 @@ impl Evaluated {
             .filter(|(_, _, e)| e.outside > 0)
             .map(|(_, limit, _)| limit.name)
     }
+}
+
+/// The value of a step by its symbol; the last one if it was taken several times.
+pub(super) fn step(steps: &[(String, Step)], symbol: &str) -> Option<f64> {
+    steps.iter().rev().find_map(|(_, step)| match step {
+        Step::Value {
+            symbol: name, value, ..
+        } if *name == symbol => Some(*value),
+        _ => None,
+    })
 }

@@ -34,12 +34,7 @@ pub struct RatedAlone {
 impl RatedAlone {
     /// The value of a step in the unit of its source; the last one if it was taken several times.
     pub fn step(&self, symbol: &str) -> Option<f64> {
-        self.steps.iter().rev().find_map(|(_, step)| match step {
-            Step::Value {
-                symbol: name, value, ..
-            } if *name == symbol => Some(*value),
-            _ => None,
-        })
+        super::evaluated::step(&self.steps, symbol)
     }
 }
 

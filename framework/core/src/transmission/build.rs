@@ -29,7 +29,7 @@ use crate::attach::{
     dangling,
 };
 use crate::codes;
-use crate::description::{GearboxEntry, NetworkChoice, OF_MODELS, SameModels, ThermalMode};
+use crate::description::{GearboxEntry, MeshMetal, NetworkChoice, OF_MODELS, SameModels, ThermalMode};
 use crate::document::{Diagnostic, classify};
 use crate::hydraulics::Hydraulics;
 use crate::language::Language;
@@ -38,10 +38,10 @@ use crate::loss::{NoteBase, Term};
 use crate::machine::{self, Contained, Machine};
 use crate::mechanism::auxiliary::Auxiliary;
 use crate::mechanism::bearing::Bearing;
-use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart, FlankSurfaces};
+use crate::mechanism::bevel_mesh::{BevelMesh, BevelPart};
 use crate::mechanism::clutch::Clutch;
 use crate::mechanism::crossed_helical_mesh::{CrossedHelicalMesh, CrossedHelicalPart};
-use crate::mechanism::gear_mesh::{GearMesh, MeshOil, MeshPart};
+use crate::mechanism::gear_mesh::{FlankSurfaces, GearMesh, MeshOil, MeshPart};
 use crate::mechanism::planetary_drag::PlanetaryDrag;
 use crate::mechanism::seal::Seal;
 use crate::mechanism::worm_mesh::{Described, WormMesh, WormPart};
@@ -965,8 +965,7 @@ fn mesh_models(
         };
         let common = Common::from(&written.common);
         let oil = oils.oil(&seat.path, &common);
-        let materials = materials_of(&frame.gears, seat.gears, written.metal);
-        let part = MeshPart::of_materials(teeth.pair, seat.ra, seat.rq, materials);
+        let part = MeshPart::of_surfaces(teeth.pair, surfaces(seat, frame, written.metal));
         let gears = [0, 1].map(|i| frame.entry.gears.get(&written.gears[i]));
         let flanks = gears.map(|gear| gear.and_then(|gear| gear.modification).unwrap_or_default());
         let lean = frame.leans.get(i).copied().unwrap_or_default();
@@ -1080,12 +1079,8 @@ fn bevel_law(
     let (Some(written), Some(pair)) = (written, pair) else {
         return Ok(None);
     };
-    let surfaces = FlankSurfaces {
-        ra: seat.ra,
-        rq: seat.rq,
-        materials: materials_of(&frame.gears, seat.gears, written.metal),
-    };
-    let part = build.part_again(&seat.path, BevelPart::new(pair, surfaces, oil.as_ref()));
+    let part = BevelPart::new(pair, surfaces(seat, frame, written.metal), oil.as_ref());
+    let part = build.part_again(&seat.path, part);
     let model = build.model_of(&seat.path, &part, written.model.as_ref())?;
     Ok(Some((BevelMesh::KEY, MeshLaw::Bevel { part, model })))
 }
@@ -1118,6 +1113,15 @@ fn worm_law(
     Ok(Some((WormMesh::KEY, MeshLaw::Worm { part, model })))
 }
 
+/// The surfaces of a mesh.
+fn surfaces(seat: &MeshSeat, frame: &Frame, metal: MeshMetal) -> FlankSurfaces {
+    FlankSurfaces {
+        ra: seat.ra,
+        rq: seat.rq,
+        materials: materials_of(&frame.gears, seat.gears, metal),
+    }
+}
+
 /// Part and model of a crossed helical mesh; none of another mesh.
 fn crossed_helical_law(
     seat: &MeshSeat,
@@ -1131,12 +1135,8 @@ fn crossed_helical_law(
         return Ok(None);
     };
     let tips = seat.gears.map(|gear| 0.5 * frame.gears[gear].diameters[1]);
-    let part = CrossedHelicalPart::new(
-        &teeth.cones,
-        (written.pressure_angle, tips),
-        [seat.ra, seat.rq],
-        materials_of(&frame.gears, seat.gears, written.metal),
-    );
+    let surfaces = surfaces(seat, frame, written.metal);
+    let part = CrossedHelicalPart::new(&teeth.cones, (written.pressure_angle, tips), surfaces);
     let mut part = part.map_err(|faults| {
         let message = faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
         Diagnostic::error(&seat.path, message)
@@ -1259,7 +1259,7 @@ fn levels(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>) -> Ve
     seats
         .map(|(i, g)| {
             let gear = &entry.gears.0[i].1;
-            if entry.is_greased(gear.lubricant.as_deref()) {
+            if entry.is_greased(gear.oil.lubricant.as_deref()) {
                 return Level::Dry;
             }
             gear.level

@@ -107,11 +107,7 @@ impl Drags<'_, '_, '_> {
                 mates: [mates(i, self.meshes), Vec::new()],
                 count: if revolves { mesh.count } else { 1.0 },
             },
-            common: Common::of(
-                written.lubricant.as_ref(),
-                written.temperature_offset,
-                written.loss_factor,
-            ),
+            common: Common::of(&written.oil, written.loss_factor),
             number: i,
         })
     }

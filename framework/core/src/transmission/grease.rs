@@ -47,7 +47,7 @@ pub(super) fn faults(document: &Value, entry: &GearboxEntry) -> Vec<Diagnostic> 
         }
     }
     for (id, gear) in entry.gears.iter() {
-        if gear.level.is_some() && entry.is_greased(gear.lubricant.as_deref()) {
+        if gear.level.is_some() && entry.is_greased(gear.oil.lubricant.as_deref()) {
             report(
                 format!("gears.{id}.level"),
                 "the lubricant of the gear is a grease, which has no level".to_owned(),
@@ -166,7 +166,7 @@ fn in_oil(id: &str, value: &Value, part: &BearingPart, members: &Members, oils: 
 }
 
 fn of_gears(entry: &GearboxEntry, gears: &[GearSeat], oils: &OilNumbers<'_>, found: &mut Vec<Diagnostic>) {
-    let lubricant = |gear: &str| entry.gears.get(gear).and_then(|gear| gear.lubricant.as_deref());
+    let lubricant = |gear: &str| entry.gears.get(gear).and_then(|gear| gear.oil.lubricant.as_deref());
     let greased: Vec<&GearSeat> = gears
         .iter()
         .filter(|gear| entry.is_greased(lubricant(&gear.id)))

@@ -134,7 +134,7 @@ impl Names<'_, '_> {
     /// The oil that comes from the sump and returns there is that of the sump.
     fn check_oil(&mut self, built: &Hydraulics) {
         let entry = self.around.entry;
-        let (Some(own), Some(sump)) = (&self.network.lubricant, &entry.housing.oil) else {
+        let (Some(own), Some(sump)) = (&self.network.oil.lubricant, &entry.housing.oil) else {
             return;
         };
         let mut elements = built.elements.iter();
@@ -251,11 +251,7 @@ impl Names<'_, '_> {
     }
 
     fn oil(&self, path: &str, oils: &mut OilNumbers<'_>) -> Option<u16> {
-        let network = self.network;
-        oils.oil(
-            path,
-            &Common::of(network.lubricant.as_ref(), network.temperature_offset, 1.0),
-        )
+        oils.oil(path, &Common::of(&self.network.oil, 1.0))
     }
 
     /// An end by its name; `None` and reported if it is unknown. The chamber, by its place in the order in which they drain.
@@ -400,13 +396,7 @@ impl Names<'_, '_> {
 
     fn nozzle(&mut self, id: &str, nozzle: &NozzleEntry, oils: &mut OilNumbers<'_>) -> Option<Element> {
         let path = format!("oil_network.nozzles.{id}");
-        let hole = HoleEntry {
-            diameter: nozzle.diameter,
-            length: nozzle.length,
-            discharge: nozzle.discharge,
-            count: nozzle.count,
-        };
-        let law = Some(Law::Orifice(hole.orifice()));
+        let law = Some(Law::Orifice(nozzle.hole.orifice()));
         let ends = [SUMP, HOUSING];
         self.element(
             path,

@@ -150,7 +150,7 @@ pub fn models(
             has_level: oils.has_level(),
         };
         let part = build.part_again(&path, part);
-        let common = Common::of(set.lubricant.as_ref(), set.temperature_offset, set.loss_factor);
+        let common = Common::of(&set.oil, set.loss_factor);
         let model = match build.model_of::<PlanetaryDrag>(&path, &part, set.model.as_ref()) {
             Ok(model) => model,
             Err(error) => {

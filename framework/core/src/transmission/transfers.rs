@@ -458,15 +458,11 @@ pub(crate) fn models(
 }
 
 fn of_chain(chain: &ChainEntry) -> Common {
-    Common::of(chain.lubricant.as_ref(), chain.temperature_offset, chain.loss_factor)
+    Common::of(&chain.oil, chain.loss_factor)
 }
 
 fn of_differential(differential: &DifferentialEntry) -> Common {
-    Common::of(
-        differential.lubricant.as_ref(),
-        differential.temperature_offset,
-        differential.loss_factor,
-    )
+    Common::of(&differential.oil, differential.loss_factor)
 }
 
 /// Friction between the sides of a differential that does not depend on torque.

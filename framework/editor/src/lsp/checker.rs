@@ -8,7 +8,7 @@ use std::sync::{Condvar, Mutex, PoisonError};
 
 use gearloss_document::Severity;
 use gearloss_document::files::without_dots;
-use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
+use gearloss_studies::engine::progress::{Progress, Silent, Steps};
 use serde_json::{Value, json};
 
 use super::{Output, show, uri};

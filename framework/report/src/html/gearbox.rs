@@ -5,7 +5,7 @@ use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::document::visible_json;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::{Built, Planner, Stopped};
 use gearloss_studies::distinct::distinct;
 use serde_json::Value;

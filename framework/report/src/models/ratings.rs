@@ -5,8 +5,8 @@ use gearloss_framework::registry::RatingPlugin;
 use gearloss_framework::resolve::RATINGS;
 use serde_json::Value;
 
-use super::ranges_and_evidence;
-use crate::text::{Lines, TextTable, significant};
+use super::{grade, parameters_table, ranges_and_evidence};
+use crate::text::{Lines, TextTable};
 
 /// Names and schemas of the parameters of a rating, from the schema of gearboxes.
 pub(super) fn parameters(rating: &RatingPlugin, schema: &Value) -> Vec<(String, Value)> {
@@ -18,19 +18,14 @@ pub(super) fn parameters(rating: &RatingPlugin, schema: &Value) -> Vec<(String, 
 
 /// All ratings with their mechanism.
 pub fn ratings_list(language: &Language) -> String {
-    let mut table = TextTable::new(&["rating", "mechanism", "crate", "evidence", "description"]);
-    for rating in language.registry().ratings() {
-        let entry = &rating.entry;
-        let formula = entry.evidence.iter().find(|g| g.key.is_empty());
-        table.row(vec![
-            entry.name.to_owned(),
-            entry.mechanism.to_owned(),
-            entry.origin.package.name.to_owned(),
-            formula.map_or("", |g| g.grade.name()).to_owned(),
-            entry.meaning(),
-        ]);
-    }
-    table.render()
+    TextTable::of(language.registry().ratings().iter().map(|rating| &rating.entry))
+        .column("rating", |entry| entry.name)
+        .column("mechanism", |entry| entry.mechanism)
+        .column("crate", |entry| entry.origin.package.name)
+        .column("evidence", |entry| grade(entry))
+        .column("description", |entry| entry.meaning())
+        .finish()
+        .render()
 }
 
 /// A rating with its parameters, quantities, stated ranges and evidence.
@@ -42,20 +37,8 @@ pub fn rating_text(language: &Language, rating: &RatingPlugin) -> String {
     out.line(format!("source: {}", entry.source));
     out.line(format!("registered at {}", entry.origin));
     out.line("");
-    let mut table = TextTable::new(&["parameter", "default", "range", "description"]);
-    for (name, field) in parameters(rating, &language.published(Kind::Gearbox)) {
-        let range = match (field["minimum"].as_f64(), field["maximum"].as_f64()) {
-            (Some(least), Some(greatest)) => format!("{} to {}", significant(least), significant(greatest)),
-            _ => String::new(),
-        };
-        let default = match &field["default"] {
-            Value::Null => "-".to_owned(),
-            value => value.to_string(),
-        };
-        let doc = field["description"].as_str().unwrap_or_default().to_owned();
-        table.row(vec![name, default, range, doc]);
-    }
-    out.text(&table.render());
+    let fields = parameters(rating, &language.published(Kind::Gearbox));
+    out.text(&parameters_table(&fields).render());
     out.line("");
     for figure in rating.figures {
         out.line(format!(

@@ -1,7 +1,7 @@
 //! The oil network at a point as text and as a record.
 
 use gearloss_framework::evaluate::{OilSupply, Solution, WindowFlow};
-use gearloss_studies::analyses::numbers::tidy;
+use gearloss_studies::analyses::common::numbers::tidy;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -46,11 +46,7 @@ pub(super) fn oil_blocks(solution: &Solution<'_>) -> Blocks {
     if let Some(supply) = solution.oil_supply() {
         blocks.text("\n");
         let (head, rows) = flow_rows(&supply);
-        let mut flows = TextTable::new(&head);
-        for row in rows {
-            flows.row(row);
-        }
-        blocks.table(flows);
+        blocks.table(TextTable::filled(&head, rows));
         let pressures: Vec<String> = supply
             .junctions
             .iter()

@@ -78,21 +78,16 @@ fn table(mechanism: &str, ratings: &[&RatedComponent]) -> Option<TextTable> {
         Some(q) if q.unit != "-" => format!("{} {}", q.symbol, q.unit),
         _ => column.1.to_owned(),
     };
-    let heads: Vec<String> = columns.iter().map(head).collect();
-    let heads: Vec<&str> = std::iter::once("component")
-        .chain(heads.iter().map(String::as_str))
-        .collect();
-    let mut table = TextTable::new(&heads).titled(format!("Ratings: {mechanism}"));
-    for component in &components {
-        let cell = |column: &(&str, &str)| match quantity(Some(component), *column) {
-            Some(q) if q.outside => format!("{}{OUTSIDE}", figures(q.value, DIGITS)),
-            Some(q) => figures(q.value, DIGITS),
-            None => "-".to_owned(),
-        };
-        let cells = columns.iter().map(cell);
-        table.row(std::iter::once((*component).to_owned()).chain(cells).collect());
-    }
-    (!components.is_empty()).then_some(table)
+    let table = TextTable::of(&components)
+        .column("component", |component| **component)
+        .each(&columns, |table, column| {
+            table.column(head(column), |component| match quantity(Some(component), *column) {
+                Some(q) if q.outside => format!("{}{OUTSIDE}", figures(q.value, DIGITS)),
+                Some(q) => figures(q.value, DIGITS),
+                None => "-".to_owned(),
+            })
+        });
+    (!components.is_empty()).then(|| table.finish().titled(format!("Ratings: {mechanism}")))
 }
 
 /// A line for each value outside its bound, for a rating that is undefined, and for a formula outside its stated range.

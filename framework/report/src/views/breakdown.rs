@@ -116,13 +116,9 @@ impl Row<'_> {
             line("measured", &|point| point.losses.measured());
         }
         let has_unit = self.points.iter().any(|point| point.unit.is_some());
-        for (k, title) in unit::head(has_unit).iter().enumerate() {
-            let cell = |i: &usize| unit::cells(has_unit, self.points[*i].unit.as_ref()).swap_remove(k);
-            table.row(
-                std::iter::once((*title).to_owned())
-                    .chain(shown.iter().map(cell))
-                    .collect(),
-            );
+        for (title, cell) in unit::columns(has_unit) {
+            let cells = shown.iter().map(|i| cell(self.points[*i].unit.as_ref()));
+            table.row(std::iter::once((*title).to_owned()).chain(cells).collect());
         }
         page.table(table);
         page.line("");

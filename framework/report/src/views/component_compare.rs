@@ -2,11 +2,11 @@
 
 mod summary;
 
+use gearloss_studies::analyses::common::measurable::note;
+use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::component_compare::{
     ComponentCompareOutcome, ComponentComparison, LossOfComponent, MeasuredLoss, ModelOfComponent,
 };
-use gearloss_studies::analyses::measurable::note;
-use gearloss_studies::analyses::numbers::RPM;
 
 use crate::Figure;
 use crate::page::Page;
@@ -47,7 +47,7 @@ fn losses(comparison: &ComponentComparison, torque: usize) -> TextTable {
     let shown = spread(speeds.len());
     let mut titles = vec!["model".to_owned(), "term".to_owned()];
     titles.extend(shown.iter().map(|i| format!("{} rpm", fixed(speeds[*i] * RPM, 0))));
-    let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+    let mut table = TextTable::new(&titles);
     for model in &comparison.models {
         let mut row = |first: &str, term: &str, watts: &dyn Fn(&LossOfComponent) -> Option<f64>| {
             let mut row = vec![first.to_owned(), term.to_owned()];

@@ -36,30 +36,16 @@ fn text(name: &str, path: &ContactPath, page: &mut Page) {
         "{name}: path of contact of {}, {:.3} Nm at its first gear, load sharing {}, models {}",
         path.mesh, path.mesh_torque_nm, sharing, path.model_set
     ));
-    let mut table = TextTable::new(&[
-        "mm from pitch",
-        "share",
-        "sliding m/s",
-        "entrainment m/s",
-        "p_H GPa",
-        "film um",
-        "mu",
-        "loss W",
-    ]);
-    for i in spread(path.places.len()) {
-        let p = &path.places[i];
-        table.row(vec![
-            format!("{:.3}", p.from_pitch_point_mm),
-            format!("{:.3}", p.load_share),
-            format!("{:.3}", p.sliding_speed_m_s),
-            format!("{:.3}", p.sum_speed_m_s),
-            format!("{:.3}", p.hertz_pressure_gpa),
-            format!("{:.3}", p.film_um),
-            number(p.mu, 4),
-            number(p.sliding_loss_w, 2),
-        ]);
-    }
-    page.table(table);
+    let table = TextTable::of(spread(path.places.len()).into_iter().map(|i| &path.places[i]))
+        .column("mm from pitch", |p| format!("{:.3}", p.from_pitch_point_mm))
+        .column("share", |p| format!("{:.3}", p.load_share))
+        .column("sliding m/s", |p| format!("{:.3}", p.sliding_speed_m_s))
+        .column("entrainment m/s", |p| format!("{:.3}", p.sum_speed_m_s))
+        .column("p_H GPa", |p| format!("{:.3}", p.hertz_pressure_gpa))
+        .column("film um", |p| format!("{:.3}", p.film_um))
+        .column("mu", |p| number(p.mu, 4))
+        .column("loss W", |p| number(p.sliding_loss_w, 2));
+    page.table(table.finish());
     if let Some(why) = &path.no_friction {
         page.line(format!("no friction of {}: {why}", path.mesh));
     }

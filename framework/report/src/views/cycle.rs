@@ -57,16 +57,13 @@ fn text(name: &str, duty: &DutyOfSet, page: &mut Page) {
             significant(reference.mean_loss_w)
         ));
     }
-    let mut table = TextTable::new(&["loss", "mean W", "kJ", "share %"]);
-    for ((share, mean), joule) in duty.shares.iter().zip(&duty.mean_losses_w).zip(&duty.energies_j) {
-        table.row(vec![
-            share.clone(),
-            format!("{mean:.2}"),
-            format!("{:.2}", 1e-3 * joule),
-            format!("{:.1}", if loss > 0.0 { 100.0 * joule / loss } else { 0.0 }),
-        ]);
-    }
-    page.table(table);
+    let percent = |joule: f64| if loss > 0.0 { 100.0 * joule / loss } else { 0.0 };
+    let table = TextTable::of(0..duty.shares.len())
+        .column("loss", |k| &duty.shares[*k])
+        .column("mean W", |k| format!("{:.2}", duty.mean_losses_w[*k]))
+        .column("kJ", |k| format!("{:.2}", 1e-3 * duty.energies_j[*k]))
+        .column("share %", |k| format!("{:.1}", percent(duty.energies_j[*k])));
+    page.table(table.finish());
     if let Some(band) = &duty.bands {
         band_text(duty, band, page);
     }
@@ -221,18 +218,18 @@ fn band_text(duty: &DutyOfSet, band: &BandOfDuty, page: &mut Page) {
     if let Some(reason) = &band.first_failure {
         page.line(format!("  {} further samples have no value: {reason}", band.failed));
     }
-    let mut table = TextTable::new(&["loss", "2.5 % W", "median W", "97.5 % W"]);
-    for (name, band) in duty.shares.iter().zip(&band.mean_losses_w) {
-        let mut row = vec![name.clone()];
-        row.extend(band.iter().map(|x| format!("{x:.2}")));
-        table.row(row);
-    }
-    page.table(table);
-    let mut table = TextTable::new(&["input", "correlation with the mean loss"]);
-    for input in &band.inputs {
-        table.row(vec![input.input.clone(), number(input.correlation_with_mean_loss, 3)]);
-    }
-    page.table(table);
+    let table = TextTable::of(duty.shares.iter().zip(&band.mean_losses_w))
+        .column("loss", |(name, _)| *name)
+        .column("2.5 % W", |(_, band)| format!("{:.2}", band[0]))
+        .column("median W", |(_, band)| format!("{:.2}", band[1]))
+        .column("97.5 % W", |(_, band)| format!("{:.2}", band[2]));
+    page.table(table.finish());
+    let table = TextTable::of(&band.inputs)
+        .column("input", |input| &input.input)
+        .column("correlation with the mean loss", |input| {
+            number(input.correlation_with_mean_loss, 3)
+        });
+    page.table(table.finish());
 }
 
 /// Heat and temperatures.
@@ -267,27 +264,19 @@ fn heat_text(duty: &DutyOfSet, heat: &HeatOfDuty, page: &mut Page) {
         heat.residual_share
     ));
     let measured = duty.nodes.iter().any(|node| node.rms_k.is_some());
-    let mut head = vec!["node", "start degC", "end", "min", "max", "mean"];
-    if measured {
-        head.push("rms deviation K");
-    }
-    let mut table = TextTable::new(&head);
-    for node in &duty.nodes {
-        let mut row = vec![node.node.clone()];
-        let temperatures = [
-            node.start_degc,
-            node.end_degc,
-            node.least_degc,
-            node.greatest_degc,
-            node.mean_degc,
-        ];
-        row.extend(temperatures.map(|t| format!("{t:.2}")));
-        if measured {
-            row.push(node.rms_k.map_or_else(String::new, |rms| format!("{rms:.2}")));
-        }
-        table.row(row);
-    }
-    page.table(table);
+    let table = TextTable::of(&duty.nodes)
+        .column("node", |node| &node.node)
+        .column("start degC", |node| format!("{:.2}", node.start_degc))
+        .column("end", |node| format!("{:.2}", node.end_degc))
+        .column("min", |node| format!("{:.2}", node.least_degc))
+        .column("max", |node| format!("{:.2}", node.greatest_degc))
+        .column("mean", |node| format!("{:.2}", node.mean_degc))
+        .each(measured.then_some("rms deviation K"), |table, head| {
+            table.column(head, |node| {
+                node.rms_k.map_or_else(String::new, |rms| format!("{rms:.2}"))
+            })
+        });
+    page.table(table.finish());
 }
 
 /// Reads a quantity of an interval.

@@ -2,8 +2,8 @@
 
 mod summary;
 
+use gearloss_studies::analyses::common::limits::LimitRecord;
 use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LossOfFluid};
-use gearloss_studies::analyses::limits::LimitRecord;
 
 use crate::Figure;
 use crate::page::Page;
@@ -101,7 +101,7 @@ fn text(name: &str, set: &FluidsOfSet, page: &mut Page) {
         let mark = if fluid.beyond_definition { "*" } else { "" };
         format!("{}{mark}", significant(fluid.value))
     }));
-    let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+    let mut table = TextTable::new(&titles);
     for duty in &set.cycles {
         let mut row = vec![duty.cycle.clone()];
         row.extend(listed(duty).map(|fluid| format!("{:.2}", fluid.mean_loss_w)));

@@ -5,9 +5,9 @@ mod panels;
 mod pictures;
 mod summary;
 
+use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::cycle::Criterion;
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownGrid, ShownPoint};
-use gearloss_studies::analyses::numbers::{RPM, tidy};
 use gearloss_studies::points::OilTemperature;
 
 use crate::exports;
@@ -92,18 +92,14 @@ fn show_map(name: &str, map: &MapOfSet, page: &mut Page) {
             page.table(table(map, grid, &|p| p.oil));
         }
     } else {
-        let mut table = TextTable::new(&["torque Nm", "speed rpm", "oil degC", "efficiency %", "loss W"]);
-        for i in spread(map.shown.points.len()) {
-            let p = &map.shown.points[i];
-            table.row(vec![
-                format!("{}", tidy(p.torque)),
-                fixed(p.speed * RPM, 0),
-                number(p.oil, 1),
-                number(percent(p), 2),
-                number(p.loss, 2),
-            ]);
-        }
-        page.table(table);
+        let points = &map.shown.points;
+        let table = TextTable::of(spread(points.len()).into_iter().map(|i| &points[i]))
+            .column("torque Nm", |p| tidy(p.torque).to_string())
+            .column("speed rpm", |p| fixed(p.speed * RPM, 0))
+            .column("oil degC", |p| number(p.oil, 1))
+            .column("efficiency %", |p| number(percent(p), 2))
+            .column("loss W", |p| number(p.loss, 2));
+        page.table(table.finish());
     }
     if let Some(thinned) = thinned(map) {
         page.line(thinned);
@@ -120,15 +116,7 @@ fn thinned(map: &MapOfSet) -> Option<String> {
 
 fn table(map: &MapOfSet, grid: &ShownGrid, quantity: &dyn Fn(&ShownPoint) -> Option<f64>) -> TextTable {
     let ShownGrid { axes, places } = grid;
-    let shown = spread(axes.speeds.len());
-    let mut head = vec!["torque Nm".to_owned()];
-    head.extend(shown.iter().map(|i| format!("{} rpm", fixed(axes.speeds[*i] * RPM, 0))));
-    let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
-    for t in spread(axes.torques.len()) {
-        let mut row = vec![format!("{}", tidy(axes.torques[t]))];
-        let cell = |i: &usize| quantity(&map.shown.points[places[t * axes.speeds.len() + i]?]);
-        row.extend(shown.iter().map(|i| number(cell(i), 2)));
-        table.row(row);
-    }
-    table
+    let speeds: Vec<f64> = axes.speeds.iter().map(|speed| speed * RPM).collect();
+    let value = |t: usize, s: usize| quantity(&map.shown.points[places[t * speeds.len() + s]?]);
+    TextTable::over_grid(&axes.torques, &speeds, |t, s| number(value(t, s), 2))
 }

@@ -45,24 +45,16 @@ fn show(outcome: &OilPropertyOutcome, page: &mut Page) {
         found.points, found.file
     ));
     let (head, rows) = cells(found);
-    page.table(filled(&head, rows));
+    page.table(TextTable::filled(&head, rows));
     for line in &found.left_out {
         page.line(format!("not judged: {line}"));
     }
     page.line("");
     for (head, rows) in parts(found) {
-        page.table(filled(&head.iter().map(String::as_str).collect::<Vec<_>>(), rows));
+        page.table(TextTable::filled(&head, rows));
         page.line("");
     }
     page.figure(format!("{name}-ratios"), figure(name, found));
-}
-
-fn filled(head: &[&str], rows: Vec<Vec<String>>) -> TextTable {
-    let mut table = TextTable::new(head);
-    for row in rows {
-        table.row(row);
-    }
-    table
 }
 
 /// The laws at all values: names of the columns, and a row for each law.

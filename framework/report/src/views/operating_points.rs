@@ -2,8 +2,8 @@
 
 mod summary;
 
-use gearloss_studies::analyses::measurable::{is_measurable, note};
-use gearloss_studies::analyses::numbers::RPM;
+use gearloss_studies::analyses::common::measurable::{is_measurable, note};
+use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome, PointsOfSet};
 
 use crate::Figure;
@@ -68,40 +68,36 @@ fn show(outcome: &OperatingPointsOutcome, page: &mut Page) {
 /// Losses by share with measured values.
 fn losses(bound: &[String], of_set: &PointsOfSet) -> TextTable {
     let (shares, points) = (&of_set.shares, &of_set.points);
-    let mut head: Vec<&str> = vec!["point"];
-    head.extend(bound.iter().map(String::as_str));
-    head.extend(["torque Nm", "speed rpm", "oil degC"]);
-    head.extend(shares.iter().map(String::as_str));
-    head.extend(["loss W", "efficiency %"]);
     let has_unit = points.iter().any(|p| p.unit.is_some());
-    head.extend(unit::head(has_unit));
-    let measured = points.iter().any(|p| !p.measured.is_empty());
-    if measured {
-        head.extend(["measured W", "measured oil degC", "measured surface degC"]);
-    }
-    let mut table = TextTable::new(&head);
-    for p in points {
-        let mut cells = vec![p.name.clone()];
-        cells.extend(p.bound.iter().map(|(_, value)| value.clone()));
-        cells.push(format!("{}", p.torque_nm));
-        cells.push(fixed(p.speed * RPM, 0));
-        cells.push(match (p.oil_temperature_degc, p.balance) {
+    let is_measured = points.iter().any(|p| !p.measured.is_empty());
+    TextTable::of(points)
+        .column("point", |p| &p.name)
+        .each(bound, |table, column| {
+            table.column(column, |p| p.bound.get(column).cloned().unwrap_or_default())
+        })
+        .column("torque Nm", |p| p.torque_nm.to_string())
+        .column("speed rpm", |p| fixed(p.speed * RPM, 0))
+        .column("oil degC", |p| match (p.oil_temperature_degc, p.balance) {
             (None, Some(outcome)) => outcome.name().to_owned(),
             (oil, _) => number(oil, 1),
-        });
-        let share = |i: usize| p.losses_w.as_ref().map(|watts| watts[i]);
-        cells.extend((0..shares.len()).map(|i| number(share(i), 2)));
-        cells.push(number(p.loss_w, 2));
-        cells.push(number(p.efficiency.map(|e| 100.0 * e), 2));
-        cells.extend(unit::cells(has_unit, p.unit.as_ref()));
-        if measured {
-            cells.push(number(p.measured.loss_w, 2));
-            cells.push(number(p.measured.oil_temperature_degc, 1));
-            cells.push(number(p.measured.surface_temperature_degc, 1));
-        }
-        table.row(cells);
-    }
-    table
+        })
+        .each(shares.iter().enumerate(), |table, (i, share)| {
+            table.column(share, |p| number(p.losses_w.as_ref().map(|watts| watts[i]), 2))
+        })
+        .column("loss W", |p| number(p.loss_w, 2))
+        .column("efficiency %", |p| number(p.efficiency.map(|e| 100.0 * e), 2))
+        .each(unit::columns(has_unit), |table, (head, cell)| {
+            table.column(head, |p| cell(p.unit.as_ref()))
+        })
+        .each(is_measured.then_some(()), |table, ()| {
+            table
+                .column("measured W", |p| number(p.measured.loss_w, 2))
+                .column("measured oil degC", |p| number(p.measured.oil_temperature_degc, 1))
+                .column("measured surface degC", |p| {
+                    number(p.measured.surface_temperature_degc, 1)
+                })
+        })
+        .finish()
 }
 
 /// Mean and maximum differences from measured values.

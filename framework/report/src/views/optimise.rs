@@ -43,96 +43,67 @@ fn variables(outcome: &OptimiseOutcome, page: &mut Page) {
         "{}: {} designs, {way}; {} keep all limits, {} could not be driven; models {}",
         outcome.head.analysis, outcome.designs, outcome.feasible, outcome.failed, outcome.model_set
     ));
-    let mut table = TextTable::new(&["variable", "path", "present", "best"]);
-    for variable in &outcome.variables {
-        let end = if variable.at_end_of_range {
-            " (end of range)"
-        } else {
-            ""
-        };
-        let best = variable
-            .best
-            .as_ref()
-            .map_or_else(|| "-".to_owned(), |best| format!("{best}{end}"));
-        table.row(vec![
-            variable.variable.clone(),
-            variable.path.clone(),
-            variable.present.clone(),
-            best,
-        ]);
-    }
-    page.table(table);
+    let table = TextTable::of(&outcome.variables)
+        .column("variable", |variable| &variable.variable)
+        .column("path", |variable| &variable.path)
+        .column("present", |variable| &variable.present)
+        .column("best", |variable| match &variable.best {
+            Some(best) if variable.at_end_of_range => format!("{best} (end of range)"),
+            Some(best) => best.clone(),
+            None => "-".to_owned(),
+        });
+    page.table(table.finish());
 }
 
 fn losses(outcome: &OptimiseOutcome, page: &mut Page) {
-    let mut table = TextTable::new(&[
-        "cycle",
-        "present W",
-        "best W",
-        "gain W",
-        "least W of any design",
-        "gain at 2.5 %",
-        "at 97.5 %",
-    ]);
-    for gain in &outcome.gains {
-        let band = gain.band.map(|band| band.gain());
-        table.row(vec![
-            gain.cycle.clone(),
-            number(Some(gain.present_w), 2),
-            number(gain.best_w, 2),
-            number(gain.best_w.map(|best| gain.present_w - best), 2),
-            number(gain.least_w, 2),
-            number(band.map(|band| band[0]), 2),
-            number(band.map(|band| band[2]), 2),
-        ]);
-    }
-    page.table(table);
+    let table = TextTable::of(&outcome.gains)
+        .column("cycle", |gain| &gain.cycle)
+        .column("present W", |gain| number(Some(gain.present_w), 2))
+        .column("best W", |gain| number(gain.best_w, 2))
+        .column("gain W", |gain| {
+            number(gain.best_w.map(|best| gain.present_w - best), 2)
+        })
+        .column("least W of any design", |gain| number(gain.least_w, 2))
+        .column("gain at 2.5 %", |gain| number(gain.band.map(|band| band.gain()[0]), 2))
+        .column("at 97.5 %", |gain| number(gain.band.map(|band| band.gain()[2]), 2));
+    page.table(table.finish());
 }
 
 /// Where the energy of the vehicle goes, present and best.
 fn consumptions(outcome: &OptimiseOutcome, page: &mut Page) {
-    let mut table = TextTable::new(&[
-        "cycle",
-        "design",
-        "consumption kWh/100 km",
-        "range km",
-        "transmission",
-        "machine",
-        "brakes",
-        "battery",
-        "gain at 2.5 %",
-        "at 97.5 %",
-    ]);
-    let mut any = false;
+    let mut rows: Vec<(&str, &str, &Consumption, Option<[f64; 3]>)> = Vec::new();
     for gain in &outcome.gains {
         let Some(consumption) = &gain.consumption else { continue };
-        any = true;
         let objective = outcome
             .objectives
             .iter()
             .find(|objective| objective.cycle == gain.cycle && objective.quantity == Minimised::Consumption);
         let band = objective.and_then(|objective| objective.band).map(|band| band.gain());
-        let mut row = |design: &str, of: &Consumption, band: Option<[f64; 3]>| {
-            table.row(vec![
-                gain.cycle.clone(),
-                design.to_owned(),
-                number(Some(of.consumption_kwh_per_100_km), 4),
-                number(of.range_km, 1),
-                number(Some(of.transmission_kwh_per_100_km), 4),
-                number(Some(of.machine_kwh_per_100_km), 4),
-                number(Some(of.brakes_kwh_per_100_km), 4),
-                number(Some(of.battery_kwh_per_100_km), 4),
-                number(band.map(|band| band[0]), 4),
-                number(band.map(|band| band[2]), 4),
-            ]);
-        };
-        row("present", &consumption.present, None);
-        if let Some(best) = &consumption.best {
-            row("best", best, band);
-        }
+        rows.push((&gain.cycle, "present", &consumption.present, None));
+        rows.extend(
+            consumption
+                .best
+                .iter()
+                .map(|best| (gain.cycle.as_str(), "best", best, band)),
+        );
     }
-    if any {
-        page.table(table.titled("Energy of the vehicle in kWh/100 km"));
+    if !rows.is_empty() {
+        let table = TextTable::of(rows)
+            .column("cycle", |(cycle, ..)| *cycle)
+            .column("design", |(_, design, ..)| *design)
+            .column("consumption kWh/100 km", |(.., of, _)| {
+                number(Some(of.consumption_kwh_per_100_km), 4)
+            })
+            .column("range km", |(.., of, _)| number(of.range_km, 1))
+            .column("transmission", |(.., of, _)| {
+                number(Some(of.transmission_kwh_per_100_km), 4)
+            })
+            .column("machine", |(.., of, _)| number(Some(of.machine_kwh_per_100_km), 4))
+            .column("brakes", |(.., of, _)| number(Some(of.brakes_kwh_per_100_km), 4))
+            .column("battery", |(.., of, _)| number(Some(of.battery_kwh_per_100_km), 4))
+            .column("gain at 2.5 %", |(.., band)| number(band.map(|band| band[0]), 4))
+            .column("at 97.5 %", |(.., band)| number(band.map(|band| band[2]), 4));
+        page.table(table.finish().titled("Energy of the vehicle in kWh/100 km"));
     }
     for disagreement in &outcome.disagreements {
         page.line(format!("  {}", summary::disagreement(outcome, disagreement)));
@@ -156,7 +127,7 @@ fn changes(outcome: &OptimiseOutcome, page: &mut Page) {
         titles.push(format!("{} alone {}", objective.cycle, objective.unit));
         titles.push(format!("{} share {}", objective.cycle, objective.unit));
     }
-    let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
+    let mut table = TextTable::new(&titles);
     for change in &outcome.changes {
         let mut row = vec![change.variable.clone(), change.from.clone(), change.to.clone()];
         for (i, objective) in outcome.objectives.iter().enumerate() {
@@ -173,21 +144,16 @@ fn limits(outcome: &OptimiseOutcome, page: &mut Page) {
     if outcome.limits.is_empty() {
         return;
     }
-    let mut table = TextTable::new(&["limit", "quantity", "least", "most", "present", "best", "unit"]);
-    for limit in &outcome.limits {
-        let value = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
-        let best = if limit.binding { "*" } else { "" };
-        table.row(vec![
-            limit.entry.limit.clone(),
-            limit.entry.quantity.clone(),
-            value(limit.entry.least),
-            value(limit.entry.most),
-            value(limit.entry.present),
-            value(limit.best) + best,
-            limit.entry.unit.clone(),
-        ]);
-    }
-    page.table(table);
+    let value = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), significant);
+    let table = TextTable::of(&outcome.limits)
+        .column("limit", |limit| &limit.entry.limit)
+        .column("quantity", |limit| &limit.entry.quantity)
+        .column("least", |limit| value(limit.entry.least))
+        .column("most", |limit| value(limit.entry.most))
+        .column("present", |limit| value(limit.entry.present))
+        .column("best", |limit| value(limit.best) + if limit.binding { "*" } else { "" })
+        .column("unit", |limit| &limit.entry.unit);
+    page.table(table.finish());
     if outcome.limits.iter().any(|limit| limit.binding) {
         page.line("  * at the limit");
     }
@@ -209,7 +175,6 @@ fn front(outcome: &OptimiseOutcome, page: &mut Page) {
     } else {
         "Front: objectives, and values"
     };
-    let titles: Vec<&str> = titles.iter().map(String::as_str).collect();
     let mut table = TextTable::new(&titles).titled(heading);
     let step = outcome.front.len().div_ceil(PRINTED).max(1);
     for design in outcome.front.iter().step_by(step) {

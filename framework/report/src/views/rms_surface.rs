@@ -60,16 +60,12 @@ fn left_out(name: &str, measured_points: usize, surface: &SurfaceOfSet, page: &m
 fn table(title: &str, surface: &SurfaceOfSet, page: &mut Page) {
     let SurfaceOfSet { x, y, pairs, .. } = surface;
     page.line(format!("{title} over {} points, over {}", surface.points, x.path));
-    let shown = spread(x.values.len());
-    let mut titles = vec![y.path.as_str()];
-    titles.extend(shown.iter().map(|i| x.words[*i].as_str()));
-    let mut table = TextTable::new(&titles);
-    for j in spread(y.values.len()) {
-        let mut row = vec![y.words[j].clone()];
-        row.extend(shown.iter().map(|i| number(pairs[j * x.values.len() + i].rms, 3)));
-        table.row(row);
-    }
-    page.table(table);
+    let table = TextTable::of(spread(y.values.len()))
+        .column(&y.path, |j| &y.words[*j])
+        .each(spread(x.values.len()), |table, i| {
+            table.column(&x.words[i], |j| number(pairs[j * x.values.len() + i].rms, 3))
+        });
+    page.table(table.finish());
     let without = pairs
         .iter()
         .enumerate()

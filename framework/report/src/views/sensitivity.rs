@@ -4,7 +4,7 @@ mod pictures;
 mod summary;
 
 use gearloss_numerics::sensitivity::{Estimate, Influence};
-use gearloss_studies::analyses::ranges::published;
+use gearloss_studies::analyses::common::ranges::published;
 use gearloss_studies::analyses::sensitivity::{
     EffectOfParameter, OutputKind, OutputSensitivity, SensitivityOfSet, SensitivityOutcome, SharesOfVariance,
 };
@@ -53,28 +53,18 @@ fn slopes(name: &str, set: &SensitivityOfSet, loss: &OutputSensitivity, page: &m
         "{name}: slopes of the mean loss at the values of the gearbox, models {}; scaled: slope times range in % of the loss",
         set.model_set
     ));
-    let mut table = TextTable::new(&[
-        "parameter",
-        "at",
-        "from",
-        "to",
-        "slope W per unit",
-        "scaled %",
-        "elasticity",
-    ]);
-    for (parameter, slope) in set.parameters.iter().zip(slopes) {
-        let words = |value: f64| parameter.varied.words(value);
-        table.row(vec![
-            parameter.path.clone(),
-            parameter.start.map_or_else(|| "-".to_owned(), words),
-            words(parameter.from),
-            words(parameter.to),
-            significant(slope.slope),
-            number(slope.scaled.map(|s| 100.0 * s), 3),
-            number(slope.elasticity, 4),
-        ]);
-    }
-    page.table(table);
+    let table = TextTable::of(set.parameters.iter().zip(slopes))
+        .column("parameter", |(parameter, _)| &parameter.path)
+        .column("at", |(parameter, _)| match parameter.start {
+            Some(start) => parameter.varied.words(start),
+            None => "-".to_owned(),
+        })
+        .column("from", |(parameter, _)| parameter.varied.words(parameter.from))
+        .column("to", |(parameter, _)| parameter.varied.words(parameter.to))
+        .column("slope W per unit", |(_, slope)| significant(slope.slope))
+        .column("scaled %", |(_, slope)| number(slope.scaled.map(|s| 100.0 * s), 3))
+        .column("elasticity", |(_, slope)| number(slope.elasticity, 4));
+    page.table(table.finish());
     page.line("");
 }
 

@@ -3,7 +3,7 @@
 mod cycles;
 mod summary;
 
-use gearloss_studies::analyses::numbers::word;
+use gearloss_studies::analyses::common::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
 use crate::figure::Best;
@@ -245,25 +245,21 @@ impl<'a> Sweep<'a> {
             (Some(path), Some(word)) => format!(", {path} {word}"),
             _ => String::new(),
         };
-        let mut titles = vec!["torque Nm", "speed rpm"];
-        titles.extend(self.words.iter().map(String::as_str));
         for quantity in self.quantities().filter(|quantity| quantity.in_table) {
             let Quantity { words, unit, read, .. } = quantity;
             page.line(format!(
                 "{}: {words} in {unit} over {}, models {set}{beside}",
                 self.name, self.path
             ));
-            let mut table = TextTable::new(&titles);
-            for (i, point) in first.points.iter().enumerate() {
-                let mut row = vec![format!("{}", point.torque_nm), fixed(point.solved_speed_rpm, 0)];
-                row.extend(
-                    values
-                        .iter()
-                        .map(|value| number(value.and_then(|value| read(&value.points[i])), 2)),
-                );
-                table.row(row);
-            }
-            page.table(table);
+            let table = TextTable::of(first.points.iter().enumerate())
+                .column("torque Nm", |(_, point)| point.torque_nm.to_string())
+                .column("speed rpm", |(_, point)| fixed(point.solved_speed_rpm, 0))
+                .each(self.words.iter().zip(&values), |table, (word, value)| {
+                    table.column(word, |(i, _)| {
+                        number(value.and_then(|value| read(&value.points[*i])), 2)
+                    })
+                });
+            page.table(table.finish());
         }
     }
 

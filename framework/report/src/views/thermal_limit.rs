@@ -28,22 +28,17 @@ fn show(outcome: &ThermalLimitOutcome, page: &mut Page) {
 /// The limits of one set with notes.
 fn table(of_set: &ThermalLimitsOfSet, page: &mut Page) {
     let has_unit = of_set.limits.iter().any(|limit| limit.unit.is_some());
-    let mut head = vec!["oil degC", "speed rpm", "torque Nm", "outcome", "loss W", "output W"];
-    head.extend(unit::head(has_unit));
-    let mut table = TextTable::new(&head);
-    for limit in &of_set.limits {
-        let mut row = vec![
-            number(Some(limit.limit_degc), 1),
-            number(limit.solved_speed_rpm, 1),
-            number(limit.torque_nm, 3),
-            limit.outcome.replace('_', " "),
-            number(limit.loss_w, 2),
-            number(limit.output_w, 1),
-        ];
-        row.extend(unit::cells(has_unit, limit.unit.as_ref()));
-        table.row(row);
-    }
-    page.table(table);
+    let table = TextTable::of(&of_set.limits)
+        .column("oil degC", |limit| number(Some(limit.limit_degc), 1))
+        .column("speed rpm", |limit| number(limit.solved_speed_rpm, 1))
+        .column("torque Nm", |limit| number(limit.torque_nm, 3))
+        .column("outcome", |limit| limit.outcome.replace('_', " "))
+        .column("loss W", |limit| number(limit.loss_w, 2))
+        .column("output W", |limit| number(limit.output_w, 1))
+        .each(unit::columns(has_unit), |table, (head, cell)| {
+            table.column(head, |limit| cell(limit.unit.as_ref()))
+        });
+    page.table(table.finish());
     // If losses increase with temperature, a lower steady temperature may exist.
     let is_lower = |limit: &&ThermalLimit| limit.lowest_balance_degc.is_some_and(|t| t < limit.limit_degc - 0.01);
     let lower = of_set.limits.iter().filter(is_lower).count();

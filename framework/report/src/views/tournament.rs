@@ -52,18 +52,17 @@ fn candidates(name: &str, mechanisms: &[MechanismOfTournament], left_out: &[Stri
     for line in left_out {
         page.line(format!("omitted: {line}"));
     }
-    let mut table = TextTable::new(&["mechanism", "model", "mean loss W", "relative time"]);
-    for mechanism in mechanisms {
-        for candidate in &mechanism.candidates {
-            let losses = &candidate.losses_w;
-            table.row(vec![
-                mechanism.mechanism.clone(),
-                candidate.name.clone(),
-                number(Some(losses.iter().sum::<f64>() / losses.len() as f64), 3),
-                number(Some(candidate.time), 2),
-            ]);
-        }
-    }
-    page.table(table);
+    let candidates = mechanisms
+        .iter()
+        .flat_map(|m| m.candidates.iter().map(move |candidate| (m, candidate)));
+    let mean = |losses: &[f64]| losses.iter().sum::<f64>() / losses.len() as f64;
+    let table = TextTable::of(candidates)
+        .column("mechanism", |(m, _)| &m.mechanism)
+        .column("model", |(_, candidate)| &candidate.name)
+        .column("mean loss W", |(_, candidate)| {
+            number(Some(mean(&candidate.losses_w)), 3)
+        })
+        .column("relative time", |(_, candidate)| number(Some(candidate.time), 2));
+    page.table(table.finish());
     page.line("");
 }

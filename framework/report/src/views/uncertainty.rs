@@ -2,14 +2,14 @@
 
 mod summary;
 
-use gearloss_studies::analyses::numbers::tidy;
+use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{BandsOfSet, PointOfBand, QuantityBand, UncertaintyOutcome};
 
 use crate::figure::jumps;
 use crate::page::Page;
 use crate::plot::{Line, Stroke};
 use crate::register_view;
-use crate::text::{TextTable, fixed, number, spread};
+use crate::text::{TextTable, number, spread};
 use crate::{Figure, Map};
 
 register_view!(UncertaintyOutcome, show);
@@ -58,13 +58,14 @@ fn inputs(name: &str, set: &BandsOfSet, page: &mut Page) {
     if let Some(reason) = &set.first_failure {
         page.line(format!("{} further samples have no value: {reason}", set.failed));
     }
-    let mut table = TextTable::new(&["input", "from", "to", "correlation with the mean loss"]);
-    for input in &set.inputs {
-        let [from, to] = input.words.clone();
-        let correlation = number(input.correlation_with_mean_loss, 3);
-        table.row(vec![input.path.clone(), from, to, correlation]);
-    }
-    page.table(table);
+    let table = TextTable::of(&set.inputs)
+        .column("input", |input| &input.path)
+        .column("from", |input| &input.words[0])
+        .column("to", |input| &input.words[1])
+        .column("correlation with the mean loss", |input| {
+            number(input.correlation_with_mean_loss, 3)
+        });
+    page.table(table.finish());
     page.line("");
 }
 
@@ -72,17 +73,8 @@ fn inputs(name: &str, set: &BandsOfSet, page: &mut Page) {
 fn widths(set: &BandsOfSet, page: &mut Page) {
     page.line("half the width of the 95 % band of the efficiency in percentage points");
     let columns = set.speeds_rpm.len();
-    let shown = spread(columns);
-    let mut titles = vec!["torque Nm".to_owned()];
-    titles.extend(shown.iter().map(|i| format!("{} rpm", fixed(set.speeds_rpm[*i], 0))));
-    let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
-    for t in spread(set.torques_nm.len()) {
-        let mut row = vec![format!("{}", tidy(set.torques_nm[t]))];
-        let width = |i: &usize| number(set.points[t * columns + i].efficiency_percent.half_width(), 3);
-        row.extend(shown.iter().map(width));
-        table.row(row);
-    }
-    page.table(table);
+    let width = |t: usize, s: usize| number(set.points[t * columns + s].efficiency_percent.half_width(), 3);
+    page.table(TextTable::over_grid(&set.torques_nm, &set.speeds_rpm, width));
     page.line("");
 }
 

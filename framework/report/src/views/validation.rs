@@ -26,11 +26,7 @@ fn show(outcome: &ValidationOutcome, page: &mut Page) {
         "{name}: calculated over measured loss of {} at {} points of {}",
         found.mechanism, found.points, found.file
     ));
-    let mut table = TextTable::new(&CELLS);
-    for model in &found.models {
-        table.row(cells(model));
-    }
-    page.table(table);
+    page.table(TextTable::filled(&CELLS, found.models.iter().map(cells).collect()));
     let far = found.models.iter().filter(|model| !is_near(model)).count();
     if far > 0 {
         let models = if far == 1 { "model is" } else { "models are" };
@@ -39,11 +35,7 @@ fn show(outcome: &ValidationOutcome, page: &mut Page) {
         ));
     }
     if let Some((head, rows)) = fitted(found) {
-        let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
-        for row in rows {
-            table.row(row);
-        }
-        page.table(table);
+        page.table(TextTable::filled(&head, rows));
     }
     for line in &found.left_out {
         page.line(format!("not judged: {line}"));
@@ -52,11 +44,7 @@ fn show(outcome: &ValidationOutcome, page: &mut Page) {
     for (over, unit) in coordinates(found) {
         page.line(format!("{name}: ratio by {}", over.replace('_', " ")));
         let (head, rows) = by_regime(found, over, unit);
-        let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
-        for row in rows {
-            table.row(row);
-        }
-        page.table(table);
+        page.table(TextTable::filled(&head, rows));
         page.line("");
     }
     page.figure(format!("{name}-ratios"), ratios(name, found));

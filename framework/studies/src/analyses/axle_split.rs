@@ -16,7 +16,7 @@ use serde::Deserialize;
 
 use self::best::{ByShare, State, least};
 pub use self::outcome::{AxleSplitOutcome, FixedSplit, IntervalOfSplit, SplitOfCycle, TimeInState};
-use super::duties::{Duties, Read, machine_of_map};
+use super::common::duties::{Duties, Read, machine_of_map};
 use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work, gear_of};
 use crate::codes;
 use crate::duty::{Demand, Interval};
@@ -41,9 +41,6 @@ pub struct AxleSplitEntry {
     #[serde(default = "step")]
     #[schemars(range(min = 0.001, max = 0.5))]
     pub share_step: f64,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 /// Twenty shares: the least is flat, so that a finer step changes little.
@@ -100,6 +97,7 @@ impl Plan for AxleSplitPlan<'_> {
 
 impl Analysis for AxleSplitEntry {
     const TYPE: &'static str = "axle_split";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = AxleSplitPlan<'a>;
     type Outcome = AxleSplitOutcome;
 
@@ -161,10 +159,6 @@ impl Analysis for AxleSplitEntry {
             head: engine.head(&built),
             cycles,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -34,9 +34,6 @@ pub struct BalanceEntry {
     #[serde(default)]
     #[schemars(extend("x-keys" = "path"))]
     pub set: Ordered<Value>,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 register_analysis!(BalanceEntry);
@@ -222,6 +219,7 @@ pub fn reason(transmission: &Transmission, why: &Unbalanced) -> String {
 
 impl Analysis for BalanceEntry {
     const TYPE: &'static str = "balance";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = Runs<'a>;
     type Outcome = BalanceOutcome;
 
@@ -280,10 +278,6 @@ impl Analysis for BalanceEntry {
             head: engine.head(&plan.built()),
             balances,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -6,13 +6,13 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::axes::{axis, speeds, torques};
-use super::numbers::{RPM, tidy};
+use super::common::axes::{axis, speeds, torques};
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Built, Chosen, Engine, Planner, Stopped};
 use crate::measured::{Measured, Seen};
 use crate::points::{Given, PointResult};
 use crate::register_analysis;
-use crate::study::{By, Data, PowerAxis, Quantity, SpeedAxis, TorqueAxis, Uses, Write};
+use crate::study::{By, Data, PowerAxis, Quantity, SpeedAxis, TorqueAxis, Uses};
 
 pub use self::bars::{
     Along, As, BarsPlan, BreakdownOfSet, BreakdownOutcome, Common, Losses, PointOfBreakdown, RowOfBars,
@@ -42,9 +42,6 @@ pub struct BreakdownEntry {
     /// Measured points. The mean of those within 2 % of torque and speed and 5 K of oil temperature of a bar is drawn next to it.
     #[schemars(extend("x-refers-to" = "measurements"))]
     pub measured: Option<Data>,
-    /// Formats to write; default: CSV and JSON.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
 }
 
 /// Horizontal axis of bars.
@@ -102,10 +99,6 @@ impl Analysis for BreakdownEntry {
             measured_notes: measured.notes.clone(),
             ..bars.outcome(engine, &|point, gear| beside(&measured, point, gear))?
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -15,17 +15,17 @@ pub use on_grid::{DifferenceAt, GridComparison, GridDifference, GridPlan};
 pub use over_cycles::{CycleComparison, DifferenceOfPhase, DifferenceOfShare};
 pub use with_data::{Band, ComparedPoint, DataComparison, DataOfComparison, Ranking, ranking};
 
-use super::duties::DrivePlan;
-use super::inputs::Input;
-use super::measurable::{countable, measured};
-use super::model_error::ModelErrorEntry;
-use super::rows::RowsPlan;
+use super::common::duties::DrivePlan;
+use super::common::inputs::Input;
+use super::common::measurable::{countable, measured};
+use super::common::model_error::ModelErrorEntry;
+use super::common::rows::RowsPlan;
 use super::{Analysis, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
 use crate::codes;
 use crate::correction::{CorrectionFrom, ReadyCorrection};
 use crate::points::Note;
 use crate::register_analysis;
-use crate::study::{By, CycleGear, Data, Difference, Quantity, RideEntry, Uses, Write};
+use crate::study::{By, CycleGear, Data, Difference, Quantity, RideEntry, Uses};
 use crate::table::Table;
 
 /// Difference between model sets, products and variants over a grid or over cycles, or from a measurement.
@@ -83,9 +83,6 @@ pub struct CompareEntry {
     /// Smooth correction of the loss torque of an identification: the differences that remain with it, beside those of the physics. With `data`, one model
     /// set, and `quantity: loss` or `loss_torque`.
     pub correction: Option<CorrectionFrom>,
-    /// Formats to write; default: CSV and JSON. Figures show the differences and, with data, parity.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
 }
 
 register_analysis!(CompareEntry);
@@ -257,10 +254,6 @@ impl Analysis for CompareEntry {
             difference: self.difference,
             accuracy: self.accuracy,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

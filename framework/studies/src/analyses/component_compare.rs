@@ -14,13 +14,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::axes::{speeds, torques};
-use super::measurable::is_measurable;
-use super::numbers::{RPM, tidy};
+use super::common::axes::{speeds, torques};
+use super::common::measurable::is_measurable;
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work, gear_of};
 use crate::points::{Note, Points, notes};
 use crate::register_analysis;
-use crate::study::{Data, SpeedAxis, TorqueAxis, Uses, Write};
+use crate::study::{Data, SpeedAxis, TorqueAxis, Uses};
 use crate::table::Table;
 
 /// Several models of one component over speed.
@@ -52,9 +52,6 @@ pub struct ComponentCompareEntry {
     /// at that torque and speed.
     #[schemars(extend("x-refers-to" = "measurements"))]
     pub measured: Option<Data>,
-    /// Formats to write; default: CSV and JSON.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
 }
 
 register_analysis!(ComponentCompareEntry);
@@ -270,10 +267,6 @@ impl Analysis for ComponentCompareEntry {
             },
             failures: plan.failures,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

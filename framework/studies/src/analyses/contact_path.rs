@@ -23,11 +23,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::numbers::{RPM, tidy};
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Run, Runs, Stopped};
 use crate::points::{Given, Note};
 use crate::register_analysis;
-use crate::study::{Uses, Write};
+use crate::study::Uses;
 use crate::table::Table;
 
 /// Velocities, load, pressure, friction, film thickness and loss along the path of contact of one mesh.
@@ -49,9 +49,6 @@ pub struct ContactPathEntry {
     #[serde(default = "places")]
     #[schemars(range(min = 3, max = 2001))]
     pub places: u32,
-    /// Formats to write; default: CSV and JSON.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
 }
 
 fn places() -> u32 {
@@ -320,10 +317,6 @@ impl Analysis for ContactPathEntry {
             paths: paths.collect::<Result<_, _>>()?,
             head: engine.head(&runs.built()),
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -20,15 +20,15 @@ use gearloss_framework::gearbox::Findings;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::duties::{DrivePlan, Duties, Read, sums_energies};
-use super::inputs::Input;
-use super::limits::Limit;
-use super::limits::at_points;
-use super::limits::over_cycles::{limits_of, reached};
-use super::model_error::{ModelErrorEntry, energies_of_parts};
-use super::numbers::tidy;
-use super::shares::{Shares, together};
-use super::units::libraries;
+use super::common::duties::{DrivePlan, Duties, Read, sums_energies};
+use super::common::inputs::Input;
+use super::common::limits::Limit;
+use super::common::limits::at_points;
+use super::common::limits::over_cycles::{limits_of, reached};
+use super::common::model_error::{ModelErrorEntry, energies_of_parts};
+use super::common::numbers::tidy;
+use super::common::shares::{Shares, together};
+use super::common::units::libraries;
 use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
 use crate::codes;
 use crate::distinct::distinct;
@@ -85,9 +85,6 @@ pub struct CycleAnalysisEntry {
     #[serde(default)]
     #[schemars(extend("x-refers-to" = "file"))]
     pub fmu_libraries: Vec<String>,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 /// A format of results of cycles.
@@ -151,6 +148,7 @@ impl Plan for CyclePlan<'_> {
 
 impl Analysis for CycleAnalysisEntry {
     const TYPE: &'static str = "cycle";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = CyclePlan<'a>;
     type Outcome = CycleOutcome;
 
@@ -251,10 +249,6 @@ impl Analysis for CycleAnalysisEntry {
             exports: self.export.clone(),
             libraries: plan.libraries,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

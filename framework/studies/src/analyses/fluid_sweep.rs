@@ -11,11 +11,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use self::swept::Swept;
-use super::duties::{DrivePlan, Duties, MeanLoss, Unfinished, sums_energies};
-use super::limits::over_cycles::{built, limits_of, note_proposed, values, violation};
-use super::limits::{Limit, LimitRecord};
-use super::shares::together;
-use super::trial::{Left, Trial};
+use super::common::duties::{DrivePlan, Duties, MeanLoss, Unfinished, sums_energies};
+use super::common::limits::over_cycles::{built, limits_of, note_proposed, values, violation};
+use super::common::limits::{Limit, LimitRecord};
+use super::common::shares::together;
+use super::common::trial::{Left, Trial};
 use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
 use crate::duty::Consumption;
 use crate::points::Note;
@@ -56,9 +56,6 @@ pub struct FluidSweepEntry {
     /// Grouping of losses.
     #[serde(default)]
     pub by: By,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 fn yes() -> bool {
@@ -221,6 +218,7 @@ impl Plan for FluidSweepPlan<'_> {
 
 impl Analysis for FluidSweepEntry {
     const TYPE: &'static str = "fluid_sweep";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = FluidSweepPlan<'a>;
     type Outcome = FluidSweepOutcome;
 
@@ -284,10 +282,6 @@ impl Analysis for FluidSweepEntry {
             start_degc: self.drive.ride.start,
             left: all_left,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -31,8 +31,9 @@ pub use entry::{IdentifyEntry, NextEntry, PosteriorEntry, RobustEntry, RobustLos
 pub use folds::{FoldOfSet, FoldsOfSet};
 pub use outcome::{IdentificationOfSet, IdentifyOutcome};
 
-use super::{Analysis, Built, Engine, JobsWithin, Plan, Planner, Stopped, Work, gear_of};
+use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work, gear_of};
 use crate::codes;
+use crate::engine::JobsWithin;
 use crate::identify::{Faults, HoldOut, Identification, Settings, group_words};
 use crate::measured::Measured;
 use crate::points::Rows;
@@ -60,6 +61,7 @@ impl Plan for IdentifyPlan<'_> {
 impl Analysis for IdentifyEntry {
     const TYPE: &'static str = "identify";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Whole("parameters"));
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = IdentifyPlan<'a>;
     type Outcome = IdentifyOutcome;
 
@@ -139,10 +141,6 @@ impl Analysis for IdentifyEntry {
                 next: self.next.is_some(),
             },
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -33,11 +33,11 @@ use self::export::ExportData;
 use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
-use super::duties::machine_of_map;
-use super::limits::at_points::LimitColumn;
-use super::outside_maps::MachineOutside;
-use super::rows::RowsPlan;
-use super::units::libraries;
+use super::common::duties::machine_of_map;
+use super::common::limits::at_points::LimitColumn;
+use super::common::outside_maps::MachineOutside;
+use super::common::rows::RowsPlan;
+use super::common::units::libraries;
 use super::{Analysis, Built, Engine, Plan, Planner, Run, Stopped, Work};
 use crate::codes;
 use crate::correction::{ReadyCorrection, UsedCorrection};
@@ -185,10 +185,6 @@ impl Analysis for MapEntry {
             libraries: plan.libraries,
             table: rows.table,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 
@@ -416,6 +412,7 @@ impl<'c> Rows<'c> {
         let parts: Vec<String> = distinct(parts.map(|part| &part.path)).into_iter().cloned().collect();
         let limits = LimitColumn::all(engine.language, engine.study);
         let has_unit = all.iter().any(|built| engine.has_machines(&built.transmission));
+        let formats = engine.formats();
         let mut none = RowsOf::none(bound, &parts, &limits, has_unit);
         none.corrected = corrections.is_some();
         Self {
@@ -424,8 +421,8 @@ impl<'c> Rows<'c> {
             limits,
             has_unit,
             of: entry.of,
-            holds: engine.sink.is_none() || entry.write.contains(&Write::Json),
-            wanted: engine.sink.is_none() || entry.write.iter().any(|format| *format != Write::Svg),
+            holds: engine.sink.is_none() || formats.contains(&Write::Json),
+            wanted: engine.sink.is_none() || formats.iter().any(|format| *format != Write::Svg),
             constant: 2 + bound.len(),
             parts,
             engine,

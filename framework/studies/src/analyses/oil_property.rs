@@ -37,9 +37,6 @@ pub struct OilPropertyEntry {
     /// Standard deviation of the values, common to all. [%]
     #[schemars(range(min = 0.01, max = 100.0))]
     pub accuracy: Option<f64>,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 /// A property of an oil.
@@ -243,6 +240,7 @@ impl Plan for OilPropertyPlan<'_> {
 
 impl Analysis for OilPropertyEntry {
     const TYPE: &'static str = "oil_property";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = OilPropertyPlan<'a>;
     type Outcome = OilPropertyOutcome;
 
@@ -291,10 +289,6 @@ impl Analysis for OilPropertyEntry {
                 left_out,
             },
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -8,10 +8,10 @@ use gearloss_framework::thermal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::limits::at_points::LimitColumn;
-use super::numbers::{RPM, tidy};
-use super::rows::{RowsPlan, Solved};
-use super::shares::{Shares, together};
+use super::common::limits::at_points::LimitColumn;
+use super::common::numbers::{RPM, tidy};
+use super::common::rows::{RowsPlan, Solved};
+use super::common::shares::{Shares, together};
 use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Stopped};
 use crate::measured::{ListedPoint, Measured, Row};
 use crate::points::{Note, PointResult, UnitPoint};
@@ -40,9 +40,6 @@ pub struct OperatingPointsEntry {
     /// Grouping of losses.
     #[serde(default)]
     pub by: By,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 register_analysis!(OperatingPointsEntry);
@@ -164,6 +161,7 @@ impl MeasuredAtPoint {
 
 impl Analysis for OperatingPointsEntry {
     const TYPE: &'static str = "operating_points";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = RowsPlan<'a>;
     type Outcome = OperatingPointsOutcome;
 
@@ -191,10 +189,6 @@ impl Analysis for OperatingPointsEntry {
             file_notes: listed.notes,
             bound: self.bind.ids().map(str::to_owned).collect(),
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -24,12 +24,12 @@ use self::drives::Drives;
 use self::objectives::Objective;
 use self::search::Search;
 use self::variables::Variable;
-use super::duties::{DrivePlan, Duties};
-use super::inputs::Input;
-use super::limits::Limit;
-use super::limits::over_cycles::limits_of;
-use super::model_error::ModelErrorEntry;
-use super::trial::Trial;
+use super::common::duties::{DrivePlan, Duties};
+use super::common::inputs::Input;
+use super::common::limits::Limit;
+use super::common::limits::over_cycles::limits_of;
+use super::common::model_error::ModelErrorEntry;
+use super::common::trial::Trial;
 use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work};
 use crate::register_analysis;
 use crate::study::{DriveEntry, LimitEntry, Then, ToleranceEntry, Uses, Write};
@@ -79,9 +79,6 @@ pub struct OptimiseEntry {
     /// Name of a model set with the best design, for later analyses.
     #[schemars(extend("x-defines" = "model_sets"))]
     pub then: Option<String>,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 fn designs() -> u32 {
@@ -116,6 +113,7 @@ impl Plan for OptimisePlan<'_> {
 
 impl Analysis for OptimiseEntry {
     const TYPE: &'static str = "optimise";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = OptimisePlan<'a>;
     type Outcome = OptimiseOutcome;
 
@@ -188,10 +186,6 @@ impl Analysis for OptimiseEntry {
         Ok(outcome::put_together(
             self, b, &drives, &search, &present, objectives, changes, band,
         ))
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

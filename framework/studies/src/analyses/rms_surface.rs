@@ -14,9 +14,9 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use self::solve::{Counted, Pair, counted_points, pairs};
-use super::measurable::{countable, measured};
-use super::ranges::varied;
-use super::trial::Left;
+use super::common::measurable::{countable, measured};
+use super::common::ranges::varied;
+use super::common::trial::Left;
 use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work};
 use crate::measured::Measured;
 use crate::register_analysis;
@@ -63,9 +63,6 @@ pub struct RmsSurfaceEntry {
     pub x: SurfaceAxisEntry,
     /// The second quantity.
     pub y: SurfaceAxisEntry,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 /// A quantity of the gearbox and its values.
@@ -103,6 +100,7 @@ impl Plan for RmsSurfacePlan<'_> {
 
 impl Analysis for RmsSurfaceEntry {
     const TYPE: &'static str = "rms_surface";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = RmsSurfacePlan<'a>;
     type Outcome = RmsSurfaceOutcome;
 
@@ -149,10 +147,6 @@ impl Analysis for RmsSurfaceEntry {
             measured_notes: measured.notes,
             left_at_pairs,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -19,10 +19,11 @@ pub use outcome::{
 pub use outputs::OutputKind;
 
 use self::outputs::Outputs;
-use super::axes::grid_axes;
-use super::ranges::{Range, built_again, once};
-use super::trial::{Left, Trial, left};
-use super::{Analysis, Built, BuiltAgain, Engine, JobsWithin, Plan, Planner, Run, Stopped, Work};
+use super::common::axes::grid_axes;
+use super::common::ranges::{Range, built_again, once};
+use super::common::trial::{Left, Trial, left};
+use super::{Analysis, Built, BuiltAgain, Engine, Plan, Planner, Run, Stopped, Work};
+use crate::engine::JobsWithin;
 use crate::points::{Points, notes};
 use crate::register_analysis;
 use crate::study::{Grid, NameOr, ParameterKey, RangeEntry, Uses, Write};
@@ -66,9 +67,6 @@ pub struct SensitivityEntry {
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 16_777_216))]
     pub samples: u32,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 fn trajectories() -> u32 {
@@ -129,6 +127,7 @@ impl Plan for SensitivityPlan<'_> {
 impl Analysis for SensitivityEntry {
     const TYPE: &'static str = "sensitivity";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("parameters"));
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = SensitivityPlan<'a>;
     type Outcome = SensitivityOutcome;
 
@@ -177,10 +176,6 @@ impl Analysis for SensitivityEntry {
             head: engine.head(&built),
             sensitivities,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

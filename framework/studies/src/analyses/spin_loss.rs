@@ -5,13 +5,13 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::axes::speeds;
 use super::breakdown::{Along, As, BarsPlan, BreakdownOutcome, Common, RowOfBars};
-use super::numbers::RPM;
+use super::common::axes::speeds;
+use super::common::numbers::RPM;
 use super::{Analysis, Built, Engine, Planner, Stopped};
 use crate::points::Points;
 use crate::register_analysis;
-use crate::study::{By, SpeedAxis, Uses, Write};
+use crate::study::{By, SpeedAxis, Uses};
 
 /// No-load losses in every gear, including neutral and towing.
 ///
@@ -37,9 +37,6 @@ pub struct SpinLossEntry {
     pub by: By,
     /// Speeds of that port.
     pub speed: SpeedAxis,
-    /// Formats to write; default: CSV and JSON.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
 }
 
 register_analysis!(SpinLossEntry);
@@ -76,10 +73,6 @@ impl Analysis for SpinLossEntry {
 
     fn reduce<'a>(&'a self, plan: BarsPlan<'a>, engine: &Engine<'a>) -> Result<BreakdownOutcome, Stopped> {
         plan.outcome(engine, &|_, _| None)
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -11,15 +11,15 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::axes::{speeds, torques};
-use super::duties::{DrivePlan, Duties, sums_energies};
-use super::gears::stated_gear;
-use super::limits::Limit;
-use super::limits::at_points::LimitColumn;
-use super::limits::over_cycles::limits_of;
-use super::numbers::{RPM, tidy};
-use super::ranges::published;
-use super::shares::{Shares, together};
+use super::common::axes::{speeds, torques};
+use super::common::duties::{DrivePlan, Duties, sums_energies};
+use super::common::gears::stated_gear;
+use super::common::limits::Limit;
+use super::common::limits::at_points::LimitColumn;
+use super::common::limits::over_cycles::limits_of;
+use super::common::numbers::{RPM, tidy};
+use super::common::ranges::published;
+use super::common::shares::{Shares, together};
 use super::{Analysis, Built, Engine, Plan, Planner, Run, Runs, Stopped, Work, gear_of};
 use crate::points::{GridResult, Points, TotalLoss, notes_with_shares};
 use crate::register_analysis;
@@ -65,9 +65,6 @@ pub struct SweepEntry {
     pub speed: Option<SpeedAxis>,
     /// Cycles instead of torques and speeds.
     pub drive: Option<RideEntry>,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 /// The second path of a sweep.
@@ -133,6 +130,7 @@ impl Plan for SweepPlan<'_> {
 
 impl Analysis for SweepEntry {
     const TYPE: &'static str = "sweep";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = SweepPlan<'a>;
     type Outcome = SweepOutcome;
 
@@ -222,10 +220,6 @@ impl Analysis for SweepEntry {
             limits,
             published: published(coefficients.iter()),
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 
@@ -381,7 +375,7 @@ fn words_of((first, i): (&Together, usize), second: Option<(&Together, usize)>) 
         format!(
             "{} {}",
             together.words(),
-            super::numbers::word(&value_of(together, choice))
+            super::common::numbers::word(&value_of(together, choice))
         )
     };
     std::iter::once((first, i))

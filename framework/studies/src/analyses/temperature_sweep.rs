@@ -3,13 +3,13 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::axes::{axis, speeds, torques};
 use super::breakdown::{Along, As, BarsPlan, BreakdownOutcome, Common, RowOfBars};
-use super::numbers::{RPM, tidy};
+use super::common::axes::{axis, speeds, torques};
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Chosen, Engine, Planner, Stopped};
 use crate::points::Given;
 use crate::register_analysis;
-use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses, Write};
+use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses};
 
 /// Loss breakdown over oil temperature.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -29,9 +29,6 @@ pub struct TemperatureSweepEntry {
     pub torque: TorqueAxis,
     /// Speeds.
     pub speed: SpeedAxis,
-    /// Formats to write; default: CSV and JSON.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
 }
 
 register_analysis!(TemperatureSweepEntry);
@@ -67,10 +64,6 @@ impl Analysis for TemperatureSweepEntry {
 
     fn reduce<'a>(&'a self, plan: BarsPlan<'a>, engine: &Engine<'a>) -> Result<BreakdownOutcome, Stopped> {
         plan.outcome(engine, &|_, _| None)
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -7,9 +7,9 @@ use gearloss_framework::transmission::Case;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::axes::{speeds, torques};
 use super::balance::needs_balance;
-use super::numbers::{RPM, tidy};
+use super::common::axes::{speeds, torques};
+use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Chosen, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
 use crate::points::{Given, Note, UnitPoint, notes, unit_of};
 use crate::register_analysis;
@@ -32,9 +32,6 @@ pub struct ThermalLimitEntry {
     pub torque: TorqueAxis,
     /// Speeds: the given speeds, or the range of the search.
     pub speed: SpeedAxis,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 /// Unknown of a thermal limit.
@@ -107,6 +104,7 @@ pub struct ThermalLimit {
 
 impl Analysis for ThermalLimitEntry {
     const TYPE: &'static str = "thermal_limit";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = ThermalLimitPlan<'a>;
     type Outcome = ThermalLimitOutcome;
 
@@ -167,10 +165,6 @@ impl Analysis for ThermalLimitEntry {
             head: engine.head(&built),
             thermal_limits,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

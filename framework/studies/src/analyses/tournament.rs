@@ -58,6 +58,7 @@ impl Plan for TournamentPlan<'_> {
 
 impl Analysis for TournamentEntry {
     const TYPE: &'static str = "tournament";
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = TournamentPlan<'a>;
     type Outcome = TournamentOutcome;
 
@@ -123,9 +124,5 @@ impl Analysis for TournamentEntry {
         })?;
         let head = engine.head(&[run.built]);
         Ok(TournamentOutcome { head, tournament })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }

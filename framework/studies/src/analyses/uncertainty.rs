@@ -5,12 +5,12 @@ mod samples;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::model_error::{ModelErrorEntry, losses_of_parts};
-use super::ranges::{PublishedCoefficient, built_again, published};
-use super::trial::Left;
+use super::common::model_error::{ModelErrorEntry, losses_of_parts};
+use super::common::ranges::{PublishedCoefficient, built_again, published};
+use super::common::trial::Left;
 use super::{Analysis, BuiltAgain, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
-use crate::analyses::axes::grid_axes;
-use crate::analyses::inputs::Input;
+use crate::analyses::common::axes::grid_axes;
+use crate::analyses::common::inputs::Input;
 use crate::codes;
 use crate::points::Note;
 use crate::register_analysis;
@@ -42,9 +42,6 @@ pub struct UncertaintyEntry {
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 16_777_216))]
     pub samples: u32,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 fn samples() -> u32 {
@@ -202,6 +199,7 @@ impl Plan for UncertaintyPlan<'_> {
 impl Analysis for UncertaintyEntry {
     const TYPE: &'static str = "uncertainty";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("inputs"));
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = UncertaintyPlan<'a>;
     type Outcome = UncertaintyOutcome;
 
@@ -251,7 +249,7 @@ impl Analysis for UncertaintyEntry {
             let mut left = Left::new();
             let samples = samples::solve(engine, self.samples, run, inputs, &mut left)?;
             let nominal = engine.solve_here(run)?;
-            left.extend(super::trial::left(&run.built.transmission, &nominal.seen));
+            left.extend(super::common::trial::left(&run.built.transmission, &nominal.seen));
             all_left.extend(left);
             engine.weigh_model_error(&run.built.name, &losses_of_parts(&nominal.points));
             let [torques, speeds] = run.points.field.axes().unwrap_or_default();
@@ -264,7 +262,7 @@ impl Analysis for UncertaintyEntry {
                 inputs: samples.ranked(inputs),
                 points: samples.points(&nominal.points),
                 torques_nm: torques.to_vec(),
-                speeds_rpm: speeds.iter().map(|speed| speed * super::numbers::RPM).collect(),
+                speeds_rpm: speeds.iter().map(|speed| speed * super::common::numbers::RPM).collect(),
                 first_failure: samples.failed.into_iter().next(),
                 published: published(inputs.iter().map(|input| &input.range.varied)),
             })
@@ -275,10 +273,6 @@ impl Analysis for UncertaintyEntry {
             bands,
             left: all_left,
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

@@ -19,8 +19,8 @@ pub use self::cell::{Cell, Ratio};
 
 use self::candidate::{Candidate, PointOfCandidate};
 use self::film::Film;
-use super::inputs::Input;
-use super::numbers::{RPM, tidy};
+use super::common::inputs::Input;
+use super::common::numbers::{RPM, tidy};
 use super::tournament::CandidatesEntry;
 use super::tournament::entrants::Entrants;
 use super::tournament::slot::Slot;
@@ -77,9 +77,6 @@ pub struct ValidationEntry {
     #[serde(default = "samples")]
     #[schemars(range(min = 8, max = 65536))]
     pub samples: u32,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 fn samples() -> u32 {
@@ -235,6 +232,7 @@ impl Plan for ValidationPlan<'_> {
 impl Analysis for ValidationEntry {
     const TYPE: &'static str = "validation";
     const PARAMETERS: Option<ParameterKey> = Some(ParameterKey::Range("inputs"));
+    const FORMATS: &'static [Write] = Write::WITH_FIGURES;
     type Plan<'a> = ValidationPlan<'a>;
     type Outcome = ValidationOutcome;
 
@@ -342,10 +340,6 @@ impl Analysis for ValidationEntry {
                 notes_on_file: plan.measured.notes,
             },
         })
-    }
-
-    fn formats(&self) -> &[Write] {
-        &self.write
     }
 }
 

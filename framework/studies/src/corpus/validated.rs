@@ -7,10 +7,10 @@ use serde_json::Value;
 
 use super::{Basis, Corpus, Set};
 use crate::analyses::oil_property::{LawOfProperty, OilPropertyEntry, OilPropertyOutcome};
-use crate::analyses::progress::Progress;
 use crate::analyses::validation::{Cell, ValidatedModel, ValidationEntry, ValidationOutcome};
 use crate::analyses::{AnalysisEntry, Engine, Outcome, Planner, Stopped};
 use crate::distinct::distinct;
+use crate::engine::progress::Progress;
 use crate::run::StudyRun;
 
 /// Number of sets below which only their ratios are stated, and no band.

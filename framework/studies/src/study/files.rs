@@ -11,7 +11,7 @@ use super::names::devices;
 use super::parameters::{TakenOver, replace_names, written_at};
 use super::then::{PromisedSets, promised_sets};
 use super::{BEST, Data, Grid, StudyEntry, Uses};
-use crate::analyses::numbers::word;
+use crate::analyses::common::numbers::word;
 use crate::analyses::{AnalysisEntry, AnalysisKind};
 use crate::codes;
 use crate::measured::{FaultPlace, Measured, MeasuredEntry, MeasuredFault};

@@ -21,12 +21,8 @@ pub enum Write {
 
 impl Write {
     /// CSV and JSON.
-    pub fn data() -> Vec<Self> {
-        vec![Self::Csv, Self::Json]
-    }
+    pub const DATA: &'static [Self] = &[Self::Csv, Self::Json];
 
     /// CSV, JSON and figures.
-    pub(crate) fn every_format() -> Vec<Self> {
-        vec![Self::Csv, Self::Json, Self::Svg]
-    }
+    pub const WITH_FIGURES: &'static [Self] = &[Self::Csv, Self::Json, Self::Svg];
 }

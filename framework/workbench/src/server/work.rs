@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use gearloss_studies::analyses::progress::{Progress, Silent, Steps};
+use gearloss_studies::engine::progress::{Progress, Silent, Steps};
 use hyper::body::Bytes;
 use serde_json::{Value, json};
 use tokio::sync::mpsc::Sender;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 
 use gearloss_framework::language::Language;
-use gearloss_studies::analyses::progress::Silent;
+use gearloss_studies::engine::progress::Silent;
 use gearloss_workbench::Session;
 use gearloss_workbench::disk::Folder;
 use gearloss_workbench::request::Request;

@@ -14,8 +14,6 @@ const CARRYING: f64 = 0.85;
 pub struct VirtualPair {
     /// Normal pressure angle of the flank.
     pub pressure_angle: f64,
-    /// Effective pressure angle of the flank, from the limit pressure angle.
-    pub effective_pressure_angle: f64,
     /// Pitch diameters.
     pub diameter: [f64; 2],
     /// Transverse pressure angle.
@@ -71,7 +69,6 @@ impl VirtualPair {
         let curvature = b1 * b2 / (2.0 * half).cos() * (of_cones[0] + of_cones[1]) / (tangents + of_offset);
         Self {
             pressure_angle,
-            effective_pressure_angle: effective,
             diameter,
             transverse_angle,
             base_helix,

@@ -1,14 +1,14 @@
 //! Differences over a grid: a table, a verdict and a map for each set; one histogram and parity plot for all.
 
+use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::compare::{CompareOutcome, DifferenceAt, GridComparison};
-use gearloss_studies::analyses::numbers::{RPM, tidy};
 
 use crate::deviations::{histograms, parity};
 use crate::figure::jumps;
 use crate::names::SetNames;
 use crate::page::Page;
 use crate::picture::{PanelQuantity, Panels, Screen};
-use crate::text::{TextTable, fixed, number, signed, spread};
+use crate::text::{TextTable, number, signed};
 use crate::{Figure, Map};
 
 pub fn show(outcome: &CompareOutcome, all: &[GridComparison], page: &mut Page) {
@@ -74,17 +74,9 @@ pub fn with_error((set, base): (&str, &str), [low, middle, high]: [f64; 3]) -> S
 
 /// A selection of differences as a table of torque and speed.
 fn differences(c: &GridComparison) -> TextTable {
-    let shown = spread(c.speeds.len());
-    let mut titles = vec!["torque Nm".to_owned()];
-    titles.extend(shown.iter().map(|i| format!("{} rpm", fixed(c.speeds[*i] * RPM, 0))));
-    let mut table = TextTable::new(&titles.iter().map(String::as_str).collect::<Vec<_>>());
-    for t in spread(c.torques.len()) {
-        let mut row = vec![format!("{}", c.torques[t])];
-        let difference = |i: &usize| c.points[t * c.speeds.len() + i].difference;
-        row.extend(shown.iter().map(|i| number(difference(i), 2)));
-        table.row(row);
-    }
-    table
+    let speeds: Vec<f64> = c.speeds.iter().map(|speed| speed * RPM).collect();
+    let difference = |t: usize, s: usize| c.points[t * speeds.len() + s].difference;
+    TextTable::over_grid(&c.torques, &speeds, |t, s| number(difference(t, s), 2))
 }
 
 /// Extremes, mean and root mean square as text.

@@ -57,8 +57,7 @@ fn shares(compared: &[&CycleComparison]) -> TextTable {
     let mut head = vec!["share".to_owned(), format!("{} W", first.base)];
     head.extend(compared.iter().map(|c| format!("{} W", c.model_set)));
     head.extend(compared.iter().map(|c| format!("{} minus {} W", c.model_set, c.base)));
-    let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>())
-        .titled(format!("mean loss over {} by share", first.cycle));
+    let mut table = TextTable::new(&head).titled(format!("mean loss over {} by share", first.cycle));
     for (i, share) in first.shares.iter().enumerate() {
         let mut row = vec![share.share.clone(), number(Some(share.base_mean_loss_w), 3)];
         row.extend(compared.iter().map(|c| number(Some(c.shares[i].mean_loss_w), 3)));
@@ -75,26 +74,20 @@ fn shares(compared: &[&CycleComparison]) -> TextTable {
 /// Mean losses by phase of the cycle.
 fn phases(compared: &[&CycleComparison]) -> TextTable {
     let first = compared[0];
-    let mut head = vec![
-        "phase".to_owned(),
-        "from s".to_owned(),
-        "to s".to_owned(),
-        format!("{} W", first.base),
-    ];
-    head.extend(compared.iter().map(|c| format!("{} minus {} W", c.model_set, c.base)));
-    let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>())
-        .titled(format!("mean loss by phase of {}", first.cycle));
-    for (i, phase) in first.phases.iter().enumerate() {
-        let mut row = vec![
-            phase.phase.clone(),
-            number(Some(phase.from_s), 0),
-            number(Some(phase.to_s), 0),
-            number(Some(phase.base_mean_loss_w), 3),
-        ];
-        row.extend(compared.iter().map(|c| difference(c.phases[i].difference_w)));
-        table.row(row);
-    }
-    table
+    TextTable::of(first.phases.iter().enumerate())
+        .column("phase", |(_, phase)| &phase.phase)
+        .column("from s", |(_, phase)| number(Some(phase.from_s), 0))
+        .column("to s", |(_, phase)| number(Some(phase.to_s), 0))
+        .column(format!("{} W", first.base), |(_, phase)| {
+            number(Some(phase.base_mean_loss_w), 3)
+        })
+        .each(compared, |table, c| {
+            table.column(format!("{} minus {} W", c.model_set, c.base), |(i, _)| {
+                difference(c.phases[*i].difference_w)
+            })
+        })
+        .finish()
+        .titled(format!("mean loss by phase of {}", first.cycle))
 }
 
 /// A difference with its sign and as many decimals as the values beside it.

@@ -1,9 +1,9 @@
 //! Comparison with a measurement: statistics over all points and in bands for each set, the best set, parity plot, differences and their
 //! histogram.
 
+use gearloss_studies::analyses::common::measurable::note;
+use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::compare::{Band, CompareOutcome, DataComparison, ranking};
-use gearloss_studies::analyses::measurable::note;
-use gearloss_studies::analyses::numbers::RPM;
 use gearloss_studies::points::Statistics;
 
 use crate::deviations::{Deviation, histograms, parity, picture};

@@ -10,18 +10,14 @@ use crate::text::{TextTable, short, significant};
 pub fn text(duty: &DutyOfSet, page: &mut Page) {
     let Some(gears) = &duty.gears_used else { return };
     page.line(format!("  gears: {}{}", gears.choice, compared(gears)));
-    let mut table = TextTable::new(&["gear", "time s", "time %", "input %", "loss kJ", "loss %"]);
-    for gear in &gears.gears {
-        table.row(vec![
-            gear.gear.clone(),
-            significant(gear.time_s),
-            format!("{:.1}", 100.0 * gear.time_share),
-            format!("{:.1}", 100.0 * gear.input_share),
-            format!("{:.2}", 1e-3 * gear.loss_j),
-            format!("{:.1}", 100.0 * gear.loss_share),
-        ]);
-    }
-    page.table(table);
+    let table = TextTable::of(&gears.gears)
+        .column("gear", |gear| &gear.gear)
+        .column("time s", |gear| significant(gear.time_s))
+        .column("time %", |gear| format!("{:.1}", 100.0 * gear.time_share))
+        .column("input %", |gear| format!("{:.1}", 100.0 * gear.input_share))
+        .column("loss kJ", |gear| format!("{:.2}", 1e-3 * gear.loss_j))
+        .column("loss %", |gear| format!("{:.1}", 100.0 * gear.loss_share));
+    page.table(table.finish());
     if let Some(shifts) = gears.shifts {
         let forced = match gears.forced_shifts {
             0 => String::new(),

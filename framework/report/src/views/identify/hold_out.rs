@@ -58,7 +58,7 @@ fn summaries(errors: &ErrorsOfQuantity) -> TextTable {
     for (_, unit) in units.iter().filter(|(shown, _)| *shown) {
         head.extend(["rms", "bias", "max"].map(|figure| format!("{figure} {unit}")));
     }
-    let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
+    let mut table = TextTable::new(&head);
     for (kind, summary) in both {
         let Some(s) = summary else { continue };
         let at = s.greatest;

@@ -17,27 +17,15 @@ pub(super) fn show(o: &IdentificationOfSet, page: &mut Page) {
     if o.means.is_empty() {
         return;
     }
-    let mut table = TextTable::new(&[
-        "mean",
-        "unit",
-        "stated",
-        "accuracy",
-        "before the fit",
-        "after",
-        "deviation over accuracy",
-    ]);
-    for mean in &o.means {
-        table.row(vec![
-            mean.name.clone(),
-            mean.unit.to_owned(),
-            stated(mean),
-            short(mean.accuracy),
-            short(mean.model_before),
-            short(mean.model),
-            short(mean.residual),
-        ]);
-    }
-    page.table(table);
+    let table = TextTable::of(&o.means)
+        .column("mean", |mean| &mean.name)
+        .column("unit", |mean| mean.unit)
+        .column("stated", |mean| stated(mean))
+        .column("accuracy", |mean| short(mean.accuracy))
+        .column("before the fit", |mean| short(mean.model_before))
+        .column("after", |mean| short(mean.model))
+        .column("deviation over accuracy", |mean| short(mean.residual));
+    page.table(table.finish());
 }
 
 /// The value or the range that agrees with a mean.

@@ -11,34 +11,22 @@ pub(super) fn show(name: &str, o: &IdentificationOfSet, page: &mut Page) {
         page.line(format!("{name}: no posterior: {reason}"));
     }
     let Some(posterior) = &o.posterior else { return };
-    let mut table = TextTable::new(&[
-        "parameter",
-        "unit",
-        "median",
-        "95 % posterior",
-        "95 % linearised",
-        "95 % profile",
-        "independent draws",
-    ]);
     let or_dash = |ends: Option<[f64; 2]>| ends.map_or_else(|| "-".to_owned(), span);
-    for parameter in &posterior.parameters {
-        table.row(vec![
-            parameter.name.clone(),
-            parameter.unit.to_owned(),
-            short(parameter.median),
-            span(parameter.interval),
-            or_dash(parameter.linearised),
-            or_dash(parameter.profile),
-            fixed(parameter.independent_draws, 0),
-        ]);
-    }
+    let table = TextTable::of(&posterior.parameters)
+        .column("parameter", |parameter| &parameter.name)
+        .column("unit", |parameter| parameter.unit)
+        .column("median", |parameter| short(parameter.median))
+        .column("95 % posterior", |parameter| span(parameter.interval))
+        .column("95 % linearised", |parameter| or_dash(parameter.linearised))
+        .column("95 % profile", |parameter| or_dash(parameter.profile))
+        .column("independent draws", |parameter| fixed(parameter.independent_draws, 0));
     page.line(format!(
         "{name}: posterior of {} walkers, {} steps each, {:.0} % of the moves accepted",
         posterior.walkers,
         posterior.steps,
         100.0 * posterior.acceptance
     ));
-    page.table(table);
+    page.table(table.finish());
     if !posterior.is_settled {
         let all = posterior.parameters.iter();
         let least = all.clone().map(|p| p.independent_draws).fold(f64::INFINITY, f64::min);

@@ -1,7 +1,7 @@
 //! A table for maps over speed and the values of one bound path.
 
+use gearloss_studies::analyses::common::numbers::{RPM, word};
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, NotesOfSet, ShownPoint};
-use gearloss_studies::analyses::numbers::{RPM, word};
 use gearloss_studies::points::OilTemperature;
 
 use crate::page::Page;
@@ -26,18 +26,15 @@ pub fn show(outcome: &MapOutcome, sets: &[NotesOfSet], page: &mut Page) {
                 "{name}: {words}, gear {}, {} Nm, models {model_set}",
                 maps[0].gear, points[0].torque
             ));
-            let mut head: Vec<String> = maps[0].bound.keys().cloned().collect();
-            let speeds = shown
-                .iter()
-                .map(|i| format!("{} rpm", fixed(points[*i].speed * RPM, 0)));
-            head.extend(speeds);
-            let mut table = TextTable::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
-            for map in &maps {
-                let mut row: Vec<String> = map.bound.values().map(word).collect();
-                row.extend(shown.iter().map(|i| number(quantity(&map.shown.points[*i]), 2)));
-                table.row(row);
-            }
-            page.table(table);
+            let table = TextTable::of(&maps)
+                .each(maps[0].bound.keys(), |table, path| {
+                    table.column(path, |map| word(&map.bound[path]))
+                })
+                .each(&shown, |table, i| {
+                    let speed = format!("{} rpm", fixed(points[*i].speed * RPM, 0));
+                    table.column(speed, |map| number(quantity(&map.shown.points[*i]), 2))
+                });
+            page.table(table.finish());
         }
         page.line("");
     }

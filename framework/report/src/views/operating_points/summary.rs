@@ -1,7 +1,7 @@
 //! Losses and temperatures of all points in one sentence.
 
-use gearloss_studies::analyses::measurable::is_measurable;
-use gearloss_studies::analyses::numbers::tidy;
+use gearloss_studies::analyses::common::measurable::is_measurable;
+use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome};
 
 use crate::names::share;

@@ -1,6 +1,6 @@
 //! A sweep over cycles: mean loss and consumption by value, and why they differ.
 
-use gearloss_studies::analyses::numbers::word;
+use gearloss_studies::analyses::common::numbers::word;
 use gearloss_studies::analyses::sweep::{CycleOfSweep, SweepOutcome};
 use gearloss_studies::duty::Consumption;
 
@@ -139,48 +139,43 @@ fn sentence(swept: &Swept<'_>, page: &mut Page) -> String {
 
 fn table(outcome: &SweepOutcome, swept: &Swept<'_>, page: &mut Page) {
     let first = swept.values[0];
-    let mut titles = vec![first.path.as_str()];
-    titles.extend(first.second.as_ref().map(|second| second.path.as_str()));
-    titles.push("mean loss W");
+    let consumption: [(&str, fn(&Consumption) -> Option<f64>, usize); 6] = [
+        ("consumption kWh/100 km", |c| Some(c.consumption_kwh_per_100_km), 4),
+        ("range km", |c| c.range_km, 1),
+        ("transmission", |c| Some(c.transmission_kwh_per_100_km), 4),
+        ("machine", |c| Some(c.machine_kwh_per_100_km), 4),
+        ("brakes", |c| Some(c.brakes_kwh_per_100_km), 4),
+        ("battery", |c| Some(c.battery_kwh_per_100_km), 4),
+    ];
     let has_consumption = first.consumption.is_some();
-    if has_consumption {
-        titles.extend([
-            "consumption kWh/100 km",
-            "range km",
-            "transmission",
-            "machine",
-            "brakes",
-            "battery",
-        ]);
-    }
-    let limits: Vec<String> = outcome
-        .cycle_limits
-        .iter()
-        .map(|limit| format!("{} {}", limit.limit, limit.unit))
-        .collect();
-    titles.extend(limits.iter().map(String::as_str));
-    let mut table = TextTable::new(&titles).titled(format!("{}, models {}", cycle(swept.cycle), swept.set));
-    for value in &swept.values {
-        let mut row = vec![word(&value.value)];
-        row.extend(value.second.as_ref().map(|second| word(&second.value)));
-        row.push(number(Some(value.mean_loss_w), 2));
-        if has_consumption {
-            let of = |read: fn(&Consumption) -> Option<f64>, digits| {
-                number(value.consumption.as_ref().and_then(read), digits)
-            };
-            row.extend([
-                of(|c| Some(c.consumption_kwh_per_100_km), 4),
-                of(|c| c.range_km, 1),
-                of(|c| Some(c.transmission_kwh_per_100_km), 4),
-                of(|c| Some(c.machine_kwh_per_100_km), 4),
-                of(|c| Some(c.brakes_kwh_per_100_km), 4),
-                of(|c| Some(c.battery_kwh_per_100_km), 4),
-            ]);
-        }
-        row.extend(value.limited.iter().map(|value| number(*value, 3)));
-        table.row(row);
-    }
-    page.table(table);
+    let table = TextTable::of(&swept.values)
+        .column(&first.path, |value| word(&value.value))
+        .each(&first.second, |table, second| {
+            table.column(&second.path, |value| {
+                value
+                    .second
+                    .as_ref()
+                    .map(|second| word(&second.value))
+                    .unwrap_or_default()
+            })
+        })
+        .column("mean loss W", |value| number(Some(value.mean_loss_w), 2))
+        .each(
+            consumption.iter().filter(|_| has_consumption),
+            |table, (head, read, digits)| {
+                table.column(head, |value| number(value.consumption.as_ref().and_then(read), *digits))
+            },
+        )
+        .each(outcome.cycle_limits.iter().enumerate(), |table, (i, limit)| {
+            table.column(format!("{} {}", limit.limit, limit.unit), |value| {
+                number(value.limited.get(i).copied().flatten(), 3)
+            })
+        });
+    page.table(
+        table
+            .finish()
+            .titled(format!("{}, models {}", cycle(swept.cycle), swept.set)),
+    );
 }
 
 /// Name of a file, quantity with its unit, and its value.

@@ -1,6 +1,6 @@
 //! The change of the loss over the values, in one sentence.
 
-use gearloss_studies::analyses::numbers::word;
+use gearloss_studies::analyses::common::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
 
 use crate::names::{listed, of_component, quantity};

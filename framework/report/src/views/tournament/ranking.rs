@@ -35,53 +35,43 @@ fn table(name: &str, ranking: &Ranking, page: &mut Page) {
         "{name}: the combinations with the smallest errors; *: winner, =: not distinguishable from it; errors in {}",
         ranking.unit_in_words
     ));
-    let mut head = vec!["rank"];
-    head.extend(ranking.mechanisms.iter().map(|m| m.mechanism.as_str()));
-    head.extend([
-        "rms / accuracy",
-        "predicted rms",
-        "worst group",
-        "fitted rms",
-        "mean",
-        "time",
-    ]);
-    if ranking.fits_factors {
-        head.push("factors");
-    }
-    head.extend(["weight", "marks"]);
-    let mut table = TextTable::new(&head);
     let mut shown: Vec<usize> = (0..ranking.ranking.len().min(ranking.shown)).collect();
     if !shown.contains(&ranking.winner) {
         shown.push(ranking.winner);
     }
-    for i in &shown {
-        table.row(row(ranking, *i));
-    }
-    page.table(table);
+    let combination = |i: &usize| (*i, &ranking.ranking[*i]);
+    let table = TextTable::of(shown.iter().map(combination))
+        .column("rank", |(i, _)| format!("{}{}", i + 1, sign(ranking, *i)))
+        .each(ranking.mechanisms.iter().enumerate(), |table, (k, m)| {
+            table.column(&m.mechanism, |(_, c)| &c.models[k])
+        })
+        .column("rms / accuracy", |(_, c)| number(Some(c.predicted_over_accuracy), 2))
+        .column("predicted rms", |(_, c)| number(c.predicted_rms, 3))
+        .column("worst group", |(_, c)| number(c.worst_group_rms, 3))
+        .column("fitted rms", |(_, c)| number(c.fitted_rms, 3))
+        .column("mean", |(_, c)| number(c.mean, 3))
+        .column("time", |(_, c)| number(Some(time(ranking, c)), 2))
+        .each(ranking.fits_factors.then_some("factors"), |table, head| {
+            table.column(head, |(_, c)| {
+                let factors = c.factors.iter().map(|f| format!("{f:.2}"));
+                factors.collect::<Vec<_>>().join(" ")
+            })
+        })
+        .column("weight", |(_, c)| number(c.weight, 2))
+        .column("marks", |(_, c)| short_marks(ranking, c));
+    page.table(table.finish());
     for line in distinct(shown.iter().flat_map(|i| &ranking.ranking[*i].marks)) {
         page.line(format!("mark: {line}"));
     }
 }
 
-fn row(ranking: &Ranking, i: usize) -> Vec<String> {
-    let c = &ranking.ranking[i];
-    let sign = match () {
+/// The sign behind the rank of a combination.
+fn sign(ranking: &Ranking, i: usize) -> &'static str {
+    match () {
         () if i == ranking.winner => "*",
         () if ranking.is_alike(i) => "=",
         () => "",
-    };
-    let mut row = vec![format!("{}{sign}", i + 1)];
-    row.extend(c.models.iter().cloned());
-    row.push(number(Some(c.predicted_over_accuracy), 2));
-    row.extend([c.predicted_rms, c.worst_group_rms, c.fitted_rms, c.mean].map(|x| number(x, 3)));
-    row.push(number(Some(time(ranking, c)), 2));
-    if ranking.fits_factors {
-        let factors = c.factors.iter().map(|f| format!("{f:.2}"));
-        row.push(factors.collect::<Vec<_>>().join(" "));
     }
-    row.push(number(c.weight, 2));
-    row.push(short_marks(ranking, c));
-    row
 }
 
 /// Relative time of a combination: the time of the set with the addition of each candidate.

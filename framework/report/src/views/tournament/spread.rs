@@ -1,6 +1,6 @@
 //! The spread of all combinations over a grid.
 
-use gearloss_studies::analyses::numbers::{RPM, tidy};
+use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::tournament::Spread;
 
 use crate::page::Page;
@@ -8,15 +8,13 @@ use crate::text::{TextTable, number};
 use crate::{Figure, Map};
 
 pub fn show(name: &str, spread: &Spread, page: &mut Page) {
-    let mut table = TextTable::new(&["mechanism", "models", "share of the spread %"]);
-    for (mechanism, of_mechanism) in spread.mechanisms.iter().zip(&spread.shares_of_spread) {
-        table.row(vec![
-            mechanism.mechanism.clone(),
-            mechanism.candidates.len().to_string(),
-            number(of_mechanism.share.map(|share| 100.0 * share), 1),
-        ]);
-    }
-    page.table(table);
+    let table = TextTable::of(spread.mechanisms.iter().zip(&spread.shares_of_spread))
+        .column("mechanism", |(mechanism, _)| &mechanism.mechanism)
+        .column("models", |(mechanism, _)| mechanism.candidates.len().to_string())
+        .column("share of the spread %", |(_, of)| {
+            number(of.share.map(|share| 100.0 * share), 1)
+        });
+    page.table(table.finish());
     let halves = spread
         .points
         .iter()

@@ -1,6 +1,6 @@
 //! The width of the bands, and the input with the strongest correlation.
 
-use gearloss_studies::analyses::numbers::tidy;
+use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{PointOfBand, UncertaintyOutcome};
 
 use crate::names::quantity;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analyses::numbers::{RPM, tidy};
-use crate::analyses::shares::{Shares, together};
+use crate::analyses::common::numbers::{RPM, tidy};
+use crate::analyses::common::shares::{Shares, together};
 use crate::analyses::{Built, Engine, Head, Outcome, Plan, Planner, Run, Runs, Stopped, Work};
 use crate::codes;
 use crate::points::{Given, GridResult, Note, PointResult, Points, TotalLoss, UnitPoint, notes_with_shares};

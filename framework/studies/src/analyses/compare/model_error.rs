@@ -8,9 +8,9 @@ use gearloss_numerics::sampling::Sobol;
 use serde_json::Value;
 
 use super::CompareEntry;
-use crate::analyses::inputs::Input;
-use crate::analyses::model_error::ModelErrorEntry;
-use crate::analyses::trial::Trial;
+use crate::analyses::common::inputs::Input;
+use crate::analyses::common::model_error::ModelErrorEntry;
+use crate::analyses::common::trial::Trial;
 use crate::analyses::{Built, Engine, Planner, Stopped};
 use crate::distinct::distinct;
 use crate::points::quantile;

@@ -6,12 +6,12 @@ use serde::Serialize;
 
 use super::cases::{cases, names};
 use super::{CompareEntry, model_error};
+use crate::analyses::common::duties::{DrivePlan, Duties, Read, Unfinished, sums_energies};
+use crate::analyses::common::inputs::Input;
+use crate::analyses::common::model_error::energies_of_parts;
+use crate::analyses::common::shares::{Shares, together};
+use crate::analyses::common::trial::Trial;
 use crate::analyses::cycle::results::per_distance;
-use crate::analyses::duties::{DrivePlan, Duties, Read, Unfinished, sums_energies};
-use crate::analyses::inputs::Input;
-use crate::analyses::model_error::energies_of_parts;
-use crate::analyses::shares::{Shares, together};
-use crate::analyses::trial::Trial;
 use crate::analyses::{Built, Engine, Planner, Stopped};
 use crate::duty::Consumption;
 use crate::points::{Driven, Note, notes, notes_over_time};

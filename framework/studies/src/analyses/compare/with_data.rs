@@ -6,10 +6,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{CompareEntry, unit};
-use crate::analyses::gears::stated_gear;
-use crate::analyses::measurable::is_measurable;
-use crate::analyses::numbers::{RPM, tidy};
-use crate::analyses::rows::{RowsPlan, Solved};
+use crate::analyses::common::gears::stated_gear;
+use crate::analyses::common::measurable::is_measurable;
+use crate::analyses::common::numbers::{RPM, tidy};
+use crate::analyses::common::rows::{RowsPlan, Solved};
 use crate::analyses::{Built, Engine, Planner, Stopped};
 use crate::codes;
 use crate::correction::{ReadyCorrection, UsedCorrection};

@@ -4,9 +4,9 @@ use gearloss_numerics::sampling::Sobol;
 
 use super::CycleAnalysisEntry;
 use super::outcome::{BandOfDuty, DutyOfSet, InputOfBand};
-use crate::analyses::duties::{Duties, MeanLoss};
-use crate::analyses::inputs::Input;
-use crate::analyses::trial::{Left, Trial};
+use crate::analyses::common::duties::{Duties, MeanLoss};
+use crate::analyses::common::inputs::Input;
+use crate::analyses::common::trial::{Left, Trial};
 use crate::analyses::{Built, Engine, Stopped};
 use crate::points::{correlation, quantile};
 

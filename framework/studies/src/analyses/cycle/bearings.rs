@@ -10,8 +10,8 @@ use gearloss_framework::evaluate::Solution;
 use gearloss_framework::transmission::Transmission;
 
 use super::points::{At, Points};
-use crate::analyses::duties::Read;
-use crate::analyses::numbers::RPM;
+use crate::analyses::common::duties::Read;
+use crate::analyses::common::numbers::RPM;
 use crate::duty::Duty;
 use crate::points::{Driven, Ride};
 

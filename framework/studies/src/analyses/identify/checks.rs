@@ -6,7 +6,7 @@ use gearloss_numerics::inference::{
 };
 
 use super::lines::{Sheet, of_residuals};
-use crate::analyses::numbers::RPM;
+use crate::analyses::common::numbers::RPM;
 use crate::identify::{Fitted, Identification, Observation};
 use crate::measured::Measured;
 

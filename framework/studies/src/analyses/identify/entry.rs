@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::correction::CorrectionEntry;
-use crate::study::{Data, FoldsEntry, HoldOutEntry, IdentifiedEntry, MeanEntry, NamesOrParameters, Quantity, Write};
+use crate::study::{Data, FoldsEntry, HoldOutEntry, IdentifiedEntry, MeanEntry, NamesOrParameters, Quantity};
 
 /// Identification of uncertain parameters from measured points and means over cycles.
 ///
@@ -70,9 +70,6 @@ pub struct IdentifyEntry {
     /// Name of a model set for later analyses: the fitted set with the identified values.
     #[schemars(extend("x-defines" = "model_sets"))]
     pub then: Option<String>,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 impl IdentifyEntry {

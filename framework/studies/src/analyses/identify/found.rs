@@ -9,10 +9,11 @@ use super::hold_out::{HoldOutOfSet, predict};
 use super::lines::{Sheet, sheets};
 use super::next::{self, Candidates, Next};
 use super::posterior::{self, PosteriorOfSet};
-use crate::analyses::{JobsWithin, Stopped};
+use crate::analyses::Stopped;
 use crate::codes;
 use crate::correction::Correction;
 use crate::distinct::distinct;
+use crate::engine::JobsWithin;
 use crate::identify::{
     Calculated, Fitted, HoldOut, Identification, Identified, Mean, Observation, Pair, Profiled, Settings, ShareBands,
 };

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 pub use errors::ErrorsOfQuantity;
 
-use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::common::numbers::{RPM, tidy};
 use crate::distinct::distinct;
 use crate::identify::{
     CONFIDENCE, Calculated, Fitted, HoldOut, Identification, Pair, PredictedNumber, Predictions, Profiled,

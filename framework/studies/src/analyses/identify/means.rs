@@ -12,9 +12,9 @@ use serde_json::Value;
 
 use super::IdentifyEntry;
 use super::found::Found;
-use crate::analyses::duties::{Duties, Unfinished};
-use crate::analyses::gears::GearOfCycles;
-use crate::analyses::shares::Shares;
+use crate::analyses::common::duties::{Duties, Unfinished};
+use crate::analyses::common::gears::GearOfCycles;
+use crate::analyses::common::shares::Shares;
 use crate::analyses::{Built, Planner, Stopped};
 use crate::codes;
 use crate::identify::{CalculatedMeans, Identified, Mean, Means};

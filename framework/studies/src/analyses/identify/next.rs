@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::entry::{NextEntry, RuleEntry};
 use super::found::Found;
-use crate::analyses::axes::grid_axes;
-use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::common::axes::grid_axes;
+use crate::analyses::common::numbers::{RPM, tidy};
 use crate::analyses::{Built, Planner, Stopped};
 use crate::identify::{Candidate, Fitted, Identification, NextPlan};
 

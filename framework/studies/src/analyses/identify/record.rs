@@ -12,7 +12,7 @@ use super::outcome::{
 };
 use super::parameter::ParameterOfSet;
 use super::search::SearchOfSet;
-use crate::analyses::numbers::{RPM, tidy};
+use crate::analyses::common::numbers::{RPM, tidy};
 use crate::identify::Observation;
 use crate::study::Difference;
 

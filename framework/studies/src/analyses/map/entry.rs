@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::export::ExportName;
 use super::map_of::MapOf;
 use crate::correction::CorrectionFrom;
-use crate::study::{Data, Write};
+use crate::study::Data;
 
 /// Losses and efficiency over a grid.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -47,9 +47,6 @@ pub struct MapEntry {
     /// Smooth correction of the loss torque of an identification: further columns with the corrected loss and its band, apart from those of
     /// the physics. Points outside of the measured region have none. Tables for other programs contain the physics alone.
     pub correction: Option<CorrectionFrom>,
-    /// Formats to write; default: CSV and JSON. Figures show efficiency, loss and, with a heat balance, temperature.
-    #[serde(default = "Write::data")]
-    pub write: Vec<Write>,
     /// Loss tables for other programs, one file for each gear; requires a grid.
     #[serde(default)]
     pub export: Vec<ExportName>,

@@ -2,7 +2,7 @@
 
 use gearloss_framework::machine::Machine;
 
-use super::super::units::speed_ratio;
+use super::super::common::units::speed_ratio;
 use super::super::{Engine, Planner, Stopped};
 use super::Map;
 use super::export::{ExportData, ExportName, MachineAtSpeeds, Refusal};

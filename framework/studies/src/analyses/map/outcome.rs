@@ -5,15 +5,15 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::super::numbers::word;
+use super::super::common::numbers::word;
 use super::super::{Head, Outcome};
 use super::best::BestGears;
 use super::export::{ExportData, ExportName};
 use super::map_of::MapOf;
 use super::points::MapPoints;
 use super::shown::ShownMap;
-use crate::analyses::limits::at_points::LimitColumn;
-use crate::analyses::outside_maps::MachineOutside;
+use crate::analyses::common::limits::at_points::LimitColumn;
+use crate::analyses::common::outside_maps::MachineOutside;
 use crate::distinct::distinct;
 use crate::points::{Note, OilTemperature, WeakPoint};
 use crate::study::Envelope;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use gearloss_framework::gearbox::Gearbox;
 use serde_json::Value;
 
-use super::super::axes::grid_axes;
+use super::super::common::axes::grid_axes;
 use super::super::{Planner, Run, Stopped};
 use super::axes::Axes;
 use super::best;

@@ -12,10 +12,10 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use super::super::Run;
-use super::super::limits::at_points::LimitColumn;
-use super::super::numbers::{RPM, tidy, word};
+use super::super::common::limits::at_points::LimitColumn;
+use super::super::common::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
-use crate::analyses::outside_maps::MachineOutside;
+use crate::analyses::common::outside_maps::MachineOutside;
 use crate::correction::{Corrected, ReadyCorrection};
 use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss, UnitPoint};
 use crate::table::{Column, Table, Values};

@@ -3,7 +3,7 @@
 use gearloss_framework::flow::Status;
 use gearloss_framework::machine::MachineState;
 
-use super::super::numbers::spread_over;
+use super::super::common::numbers::spread_over;
 use super::axes::Axes;
 use super::map_of::MapOf;
 use crate::points::{Field, Numbered, PointResult, UnitPoint};

@@ -5,7 +5,7 @@ use gearloss_numerics::sampling::Sobol;
 use super::drives::Drives;
 use super::objectives::Objective;
 use crate::analyses::Stopped;
-use crate::analyses::inputs::Input;
+use crate::analyses::common::inputs::Input;
 use crate::points::quantile;
 
 /// Probabilities of the ends and the middle of a band.

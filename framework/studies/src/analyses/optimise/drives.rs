@@ -5,10 +5,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::variables::Variable;
-use crate::analyses::duties::{Duties, Unfinished};
-use crate::analyses::limits::Limit;
-use crate::analyses::limits::over_cycles::{built, mean_loss, values, violation};
-use crate::analyses::trial::{Left, Trial, left};
+use crate::analyses::common::duties::{Duties, Unfinished};
+use crate::analyses::common::limits::Limit;
+use crate::analyses::common::limits::over_cycles::{built, mean_loss, values, violation};
+use crate::analyses::common::trial::{Left, Trial, left};
 use crate::analyses::{Engine, Planner, Stopped};
 use crate::duty::Consumption;
 

@@ -5,8 +5,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::drives::Drive;
-use crate::analyses::duties::Duties;
-use crate::analyses::limits::over_cycles::cycle;
+use crate::analyses::common::duties::Duties;
+use crate::analyses::common::limits::over_cycles::cycle;
 use crate::analyses::{Planner, Stopped};
 use crate::codes;
 

@@ -12,9 +12,9 @@ use super::changes::Change;
 use super::drives::{Drive, Drives};
 use super::objectives::{Minimised, Objective};
 use super::search::Search;
-use crate::analyses::limits::over_cycles::note_proposed;
-use crate::analyses::limits::{Limit, LimitRecord};
-use crate::analyses::trial::Left;
+use crate::analyses::common::limits::over_cycles::note_proposed;
+use crate::analyses::common::limits::{Limit, LimitRecord};
+use crate::analyses::common::trial::Left;
 use crate::analyses::{Built, Head, Outcome, TextFile};
 use crate::distinct::distinct;
 use crate::duty::Consumption;
@@ -466,7 +466,7 @@ fn gains(
     (objectives, bands): (&[Objective], &[Band]),
 ) -> Vec<GainOfCycle> {
     let cycles = drives.duties.list.iter().enumerate();
-    let gain = |(cycle, read): (usize, &crate::analyses::duties::Read)| {
+    let gain = |(cycle, read): (usize, &crate::analyses::common::duties::Read)| {
         let place = |quantity| {
             let wanted = Objective { quantity, cycle };
             objectives.iter().position(|known| *known == wanted)
@@ -498,7 +498,7 @@ fn gains(
 /// Cycles with a consumption whose least value belongs to another design than the least loss.
 fn disagreements(drives: &Drives<'_>, search: &Search<'_>) -> Vec<Disagreement> {
     let cycles = drives.duties.list.iter().enumerate();
-    let disagreement = |(cycle, read): (usize, &crate::analyses::duties::Read)| {
+    let disagreement = |(cycle, read): (usize, &crate::analyses::common::duties::Read)| {
         let designs =
             || kept(search).filter_map(|(i, drive)| Some((i, drive.losses[cycle], drive.consumptions[cycle]?)));
         let net = |design: &(usize, f64, Consumption)| design.2.consumption_kwh_per_100_km;

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::analyses::ranges::Range;
+use crate::analyses::common::ranges::Range;
 use crate::analyses::{Built, Planner, Stopped};
 use crate::study::{RangeEntry, Together, joined};
 use crate::varied::{Tie, Varied};

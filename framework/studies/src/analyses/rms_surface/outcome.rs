@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::least::{Flat, Least};
-use crate::analyses::trial::Left;
+use crate::analyses::common::trial::Left;
 use crate::analyses::{Head, Outcome};
 use crate::points::Note;
 use crate::study::{Difference, Quantity};

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{Axis, RmsSurfaceEntry};
-use crate::analyses::rows::SolvedRow;
-use crate::analyses::trial::{Left, Trial};
+use crate::analyses::common::rows::SolvedRow;
+use crate::analyses::common::trial::{Left, Trial};
 use crate::analyses::{Built, Engine, Planner, Stopped};
 use crate::measured::{Measured, Seen, counted};
 use crate::points::{Rows, Statistics};

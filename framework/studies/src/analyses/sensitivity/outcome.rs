@@ -4,8 +4,8 @@ use gearloss_numerics::sensitivity::{Estimate, Influence};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::super::ranges::Range;
-use super::super::trial::Left;
+use super::super::common::ranges::Range;
+use super::super::common::trial::Left;
 use super::super::{Head, Outcome};
 use super::Found;
 use super::outputs::{Output, OutputKind};

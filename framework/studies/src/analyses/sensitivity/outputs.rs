@@ -4,9 +4,9 @@ use gearloss_framework::transmission::{PartInfo, Transmission};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::super::numbers::{RPM, tidy};
-use super::super::shares::{Shares, together};
-use super::super::trial::why;
+use super::super::common::numbers::{RPM, tidy};
+use super::super::common::shares::{Shares, together};
+use super::super::common::trial::why;
 use crate::points::PointResult;
 use crate::study::By;
 

@@ -7,10 +7,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::analyses::limits::Limit;
-use crate::analyses::limits::at_points::LimitColumn;
-use crate::analyses::numbers::word;
-use crate::analyses::ranges::PublishedCoefficient;
+use crate::analyses::common::limits::Limit;
+use crate::analyses::common::limits::at_points::LimitColumn;
+use crate::analyses::common::numbers::word;
+use crate::analyses::common::ranges::PublishedCoefficient;
 use crate::analyses::{Head, Outcome};
 use crate::distinct::distinct;
 use crate::duty::Consumption;

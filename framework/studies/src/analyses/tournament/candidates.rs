@@ -5,7 +5,7 @@ use std::time::Instant;
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
-use super::super::numbers::RPM;
+use super::super::common::numbers::RPM;
 use super::super::{Built, Engine, Stopped};
 use super::entrants::{Entrants, first_message};
 use super::law_loss::LossOfLaw;

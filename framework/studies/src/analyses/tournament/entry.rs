@@ -5,10 +5,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::super::model_error::ModelErrorEntry;
+use super::super::common::model_error::ModelErrorEntry;
 use super::super::{Planner, Stopped};
-use crate::analyses::measurable::measured;
-use crate::study::{Data, Difference, Quantity, Write};
+use crate::analyses::common::measurable::measured;
+use crate::study::{Data, Difference, Quantity};
 
 /// Maximum number of combinations.
 pub const MOST: usize = 200_000;
@@ -62,9 +62,6 @@ pub struct TournamentEntry {
     #[serde(default = "shown")]
     #[schemars(range(min = 1, max = 1000))]
     pub shown: u32,
-    /// Formats to write; default: CSV, JSON and SVG.
-    #[serde(default = "Write::every_format")]
-    pub write: Vec<Write>,
 }
 
 fn folds() -> u32 {

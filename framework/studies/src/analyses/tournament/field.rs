@@ -3,7 +3,7 @@
 use gearloss_framework::description::ThermalMode;
 use gearloss_numerics::selection::{Combination, Losses};
 
-use super::super::numbers::RPM;
+use super::super::common::numbers::RPM;
 use super::super::{Built, Engine, Run, Stopped};
 use super::candidates::{Gathering, left};
 use super::entrants::Entrants;

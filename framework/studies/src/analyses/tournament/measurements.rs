@@ -3,7 +3,7 @@
 use gearloss_numerics::inference::{PointSet, folds};
 use gearloss_numerics::selection::{LossErrors, MeasuredLosses};
 
-use super::super::numbers::significant;
+use super::super::common::numbers::significant;
 use super::super::{Planner, Stopped};
 use super::entry::TournamentEntry;
 use super::field::Field;

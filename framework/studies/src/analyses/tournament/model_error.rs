@@ -2,7 +2,7 @@
 
 use gearloss_framework::transmission::Transmission;
 
-use super::super::model_error::{ModelError, ModelErrorEntry, StateOfModelError, laws};
+use super::super::common::model_error::{ModelError, ModelErrorEntry, StateOfModelError, laws};
 use super::super::{Built, Planner, Stopped};
 use super::entrants::Entrants;
 use super::law_loss::LossOfLaw;

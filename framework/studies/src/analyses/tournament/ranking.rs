@@ -3,7 +3,7 @@
 
 use gearloss_numerics::selection::{Combination, MeasuredLosses, Shortlist, Winner, rank, shortlist, winner};
 
-use super::super::numbers::{RPM, tidy};
+use super::super::common::numbers::{RPM, tidy};
 use super::super::{Engine, Run, Stopped};
 use super::candidates::left;
 use super::entrants::Entrants;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::super::axes::grid_axes;
-use super::super::numbers::{RPM, tidy};
+use super::super::common::axes::grid_axes;
+use super::super::common::numbers::{RPM, tidy};
 use super::super::{Built, Engine, Planner, Run, Stopped};
 use super::band::bands;
 use super::entrants::Entrants;

@@ -4,9 +4,9 @@ use gearloss_numerics::sampling::Sobol;
 use serde::{Deserialize, Serialize};
 
 use super::{PointOfBand, QuantityBand, UncertainInput};
-use crate::analyses::inputs::Input;
-use crate::analyses::numbers::{RPM, tidy};
-use crate::analyses::trial::{Left, Trial, left};
+use crate::analyses::common::inputs::Input;
+use crate::analyses::common::numbers::{RPM, tidy};
+use crate::analyses::common::trial::{Left, Trial, left};
 use crate::analyses::{Engine, Run, Stopped};
 use crate::points::{PointResult, correlation, quantile};
 

@@ -4,9 +4,9 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
+use super::super::common::trial::why;
 use super::super::tournament::entrants::Entrant;
 use super::super::tournament::slot::Slot;
-use super::super::trial::why;
 use super::super::{Built, Planner, Stopped};
 use super::{LossOf, ValidationEntry};
 use crate::points::{PointResult, Rows};

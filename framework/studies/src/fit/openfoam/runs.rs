@@ -9,7 +9,7 @@ use gearloss_framework::mechanism::planetary_drag::PlanetaryDrag;
 use gearloss_framework::table::{Reading, Table};
 
 use super::{Axis, Mean};
-use crate::analyses::numbers::significant;
+use crate::analyses::common::numbers::significant;
 use crate::codes;
 
 /// One run of the list.

@@ -8,7 +8,7 @@ use gearloss_framework::transmission::{Case, Transmission};
 
 use super::ranges::{Ranges, short, temperature_axis};
 use super::sweep::{Group, Sweep, TEMPERATURES};
-use crate::analyses::numbers::RPM;
+use crate::analyses::common::numbers::RPM;
 use crate::analyses::{Engine, Stopped};
 
 /// A loss depends on the temperature of a node if that changes it by more than this share over [`PROBE`].

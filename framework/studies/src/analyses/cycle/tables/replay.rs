@@ -7,7 +7,7 @@ use gearloss_fmu::variables::{Causality, Slot, Use};
 use gearloss_framework::thermal::network::Network;
 use gearloss_framework::transmission::Transmission;
 
-use crate::analyses::duties::Read;
+use crate::analyses::common::duties::Read;
 use crate::points::Driven;
 
 /// Maximum number of rows of the reference inputs.

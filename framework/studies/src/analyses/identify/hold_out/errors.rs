@@ -2,7 +2,7 @@
 
 use gearloss_numerics::inference::{Coverage, ErrorSummary, PlacedError, Region};
 
-use crate::analyses::numbers::{figures, fixed};
+use crate::analyses::common::numbers::{figures, fixed};
 use crate::identify::CONFIDENCE;
 use crate::study::{Difference, Quantity};
 

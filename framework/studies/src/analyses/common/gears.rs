@@ -3,7 +3,7 @@
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::transmission::Transmission;
 
-use super::{Planner, Stopped};
+use crate::analyses::{Planner, Stopped};
 use crate::codes;
 use crate::duty::ShiftMap;
 use crate::points::{ChosenBy, GearChoice, Rule};

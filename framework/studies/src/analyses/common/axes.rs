@@ -3,7 +3,7 @@
 use crate::study::{AxisError, Grid, SpeedAxis, TorqueAxis};
 use gearloss_framework::transmission::Transmission;
 
-use super::{Planner, Stopped};
+use crate::analyses::{Planner, Stopped};
 use crate::codes;
 
 /// Values of an axis, or the error with its path.

@@ -8,7 +8,7 @@ use gearloss_numerics::sampling::Distribution;
 
 use super::model_error::ModelError;
 use super::ranges::{Range, once};
-use super::{Built, Planner, Stopped};
+use crate::analyses::{Built, Planner, Stopped};
 
 /// An uncertain input with its distribution, in the unit of the path.
 pub struct Input {
@@ -63,7 +63,7 @@ impl Input {
     }
 
     /// The factor on the losses of components with the same law, by the distribution of its logarithm. `path` is its place in the study.
-    pub(super) fn of_model_error(
+    pub(crate) fn of_model_error(
         cx: &Planner<'_>,
         path: &str,
         (law, paths): (&ModelError, Vec<String>),

@@ -9,18 +9,18 @@ use gearloss_framework::resolve::{OWN_MODELS, Resolved};
 use gearloss_framework::transmission::{Case, Transmission};
 use serde_json::Value;
 
-use super::AnalysisEntry;
 use super::head::{Head, InputFile};
-use super::identify::IdentifyEntry;
-use super::limits::Scope;
-use super::limits::at_points::Watch;
-use super::machine_demand::MachineDemand;
-use super::model_error::{ModelError, ModelErrorOfSet, weigh};
 use super::stopped::Stopped;
+use crate::analyses::AnalysisEntry;
+use crate::analyses::common::limits::Scope;
+use crate::analyses::common::limits::at_points::Watch;
+use crate::analyses::common::machine_demand::MachineDemand;
+use crate::analyses::common::model_error::{ModelError, ModelErrorOfSet, weigh};
+use crate::analyses::identify::IdentifyEntry;
 use crate::codes;
 use crate::correction::{CorrectionFrom, ReadyCorrection, UsedCorrection};
 use crate::points::{Field, Given, OilTemperature, Points};
-use crate::study::{Grid, Study};
+use crate::study::{Grid, Study, Write};
 
 /// One gearbox under one model set.
 pub struct Built<'a> {
@@ -92,7 +92,7 @@ impl<'a> Planner<'a> {
     }
 
     /// Adds what points in a gear, or in the best one of several gears, demand of machines.
-    pub(super) fn add_machine_demand(&self, built: &Built<'_>, gears: &[&Points]) {
+    pub(crate) fn add_machine_demand(&self, built: &Built<'_>, gears: &[&Points]) {
         if let Some(demand) = &self.machine_demand {
             demand.lock().unwrap_or_else(PoisonError::into_inner).add(built, gears);
         }
@@ -119,8 +119,14 @@ impl<'a> Planner<'a> {
         format!("analyses.{}", self.name)
     }
 
+    /// Files that the entry of the analysis requests.
+    pub fn formats(&self) -> &'a [Write] {
+        let entry = self.study.entry.analyses.get(self.name);
+        entry.map_or(&[], |entry| &entry.write)
+    }
+
     /// The head of an outcome without what limits reached: provenance.
-    pub(super) fn provenance(&self, built: &[&Built<'_>]) -> Head {
+    pub(crate) fn provenance(&self, built: &[&Built<'_>]) -> Head {
         let record = self.record.lock().unwrap_or_else(PoisonError::into_inner);
         let mut head = Head::new(self, built, &record.inputs, &record.about);
         head.model_error.clone_from(&record.model_errors);

@@ -13,9 +13,9 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::limits::reached::LimitReached;
-use super::model_error::ModelErrorOfSet;
 use super::{Built, Planner};
+use crate::analyses::common::limits::reached::LimitReached;
+use crate::analyses::common::model_error::ModelErrorOfSet;
 use crate::correction::UsedCorrection;
 use crate::study::Study;
 
@@ -101,7 +101,7 @@ pub struct UnreachedOfSet {
 }
 
 impl InputFile {
-    pub(super) fn new(gearbox: Option<&str>, file: &str, bytes: &[u8]) -> Self {
+    pub(crate) fn new(gearbox: Option<&str>, file: &str, bytes: &[u8]) -> Self {
         Self {
             gearbox: gearbox.map(str::to_owned),
             file: file.to_owned(),
@@ -111,7 +111,7 @@ impl InputFile {
 }
 
 impl Head {
-    pub(super) fn new(cx: &Planner<'_>, built: &[&Built<'_>], read: &[InputFile], about: &[String]) -> Self {
+    pub(crate) fn new(cx: &Planner<'_>, built: &[&Built<'_>], read: &[InputFile], about: &[String]) -> Self {
         let conditions = &cx.study.entry.conditions;
         let mut inputs = inputs(cx.study);
         inputs.extend_from_slice(read);

@@ -14,7 +14,7 @@ use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
 use super::trial::{Left, Trial, left, why};
-use super::{Built, Engine, Plan, Planner, Run, Stopped, Work};
+use crate::analyses::{Built, Engine, Plan, Planner, Run, Stopped, Work};
 
 /// All rows of a file with one set.
 pub struct Solved<'a> {

@@ -1,6 +1,6 @@
 //! Corrections in analyses: whether a gearbox is the one that was identified.
 
-use super::{Engine, Run, Stopped};
+use crate::analyses::{Engine, Run, Stopped};
 use crate::codes;
 use crate::correction::ReadyCorrection;
 
@@ -9,7 +9,7 @@ impl ReadyCorrection {
     ///
     /// # Errors
     /// Where the gearbox differs most; an interruption.
-    pub(in crate::analyses) fn check(&self, engine: &Engine<'_>, path: &str, run: &Run<'_>) -> Result<(), Stopped> {
+    pub(crate) fn check(&self, engine: &Engine<'_>, path: &str, run: &Run<'_>) -> Result<(), Stopped> {
         let mut points = run.with_list(self.list());
         points.watch = None;
         let solved = engine.solve_here(&points)?;

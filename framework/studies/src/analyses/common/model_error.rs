@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::inputs::Input;
 use super::ranges::once;
-use super::{Built, Planner, Stopped};
+use crate::analyses::{Built, Planner, Stopped};
 use crate::codes;
 use crate::corpus::{ErrorOfLaw, FEWEST_SETS, JudgingSet, LeftOut};
 use crate::points::{Driven, PointResult};
@@ -150,7 +150,7 @@ impl ModelErrorEntry {
     ///
     /// # Errors
     /// A table that cannot be read.
-    pub(super) fn tables(&self, cx: &Planner<'_>) -> Result<Tables, Stopped> {
+    pub(crate) fn tables(&self, cx: &Planner<'_>) -> Result<Tables, Stopped> {
         let path = format!("{}.model_error", cx.path());
         let (own, counts_corpus): (&[String], bool) = match self {
             Self::Shipped(ShippedCorpus::Corpus) => (&[], true),
@@ -175,11 +175,11 @@ impl ModelErrorEntry {
 }
 
 /// Tables of cells that can be read.
-pub(super) struct Tables(Vec<Cow<'static, str>>);
+pub(crate) struct Tables(Vec<Cow<'static, str>>);
 
 impl Tables {
     /// Their cells.
-    pub(super) fn cells(&self) -> Vec<JudgedCell<'_>> {
+    pub(crate) fn cells(&self) -> Vec<JudgedCell<'_>> {
         self.0
             .iter()
             .flat_map(|text| JudgedCell::read(text).unwrap_or_default())
@@ -193,7 +193,7 @@ fn faulty(cx: &Planner<'_>, path: &str, file: &str, reason: &str) -> Stopped {
 }
 
 /// The laws of a gearbox with their errors, in the order of its components.
-pub(super) fn laws(
+pub(crate) fn laws(
     cx: &Planner<'_>,
     resolved: &Resolved,
     t: &Transmission,
@@ -292,7 +292,7 @@ fn nested(t: &Transmission, part: &PartInfo) -> Vec<(&'static str, &'static str)
 }
 
 /// Writes the shares of the laws in a loss: by part. \[W\] or \[J\]
-pub(super) fn weigh(laws: &mut [ModelError], losses: &[f64]) {
+pub(crate) fn weigh(laws: &mut [ModelError], losses: &[f64]) {
     let whole: f64 = losses.iter().sum();
     for law in laws.iter_mut().filter(|law| !law.parts.is_empty()) {
         let own: f64 = law.parts.iter().filter_map(|part| losses.get(*part)).sum();
@@ -301,7 +301,7 @@ pub(super) fn weigh(laws: &mut [ModelError], losses: &[f64]) {
 }
 
 /// Losses by part over the points with a loss. \[W\]
-pub(super) fn losses_of_parts(points: &[PointResult]) -> Vec<f64> {
+pub(crate) fn losses_of_parts(points: &[PointResult]) -> Vec<f64> {
     let solved: Vec<&PointResult> = points.iter().filter(|point| point.loss.is_some()).collect();
     let count = solved.first().map_or(0, |point| point.parts.len());
     let sum = |part: usize| solved.iter().filter_map(|point| point.parts.get(part)).sum();
@@ -309,7 +309,7 @@ pub(super) fn losses_of_parts(points: &[PointResult]) -> Vec<f64> {
 }
 
 /// Losses by part over all cycles. \[J\]
-pub(super) fn energies_of_parts(driven: &[Driven]) -> Vec<f64> {
+pub(crate) fn energies_of_parts(driven: &[Driven]) -> Vec<f64> {
     let count = driven.first().map_or(0, |driven| driven.total.parts.len());
     let sum = |part: usize| driven.iter().filter_map(|driven| driven.total.parts.get(part)).sum();
     (0..count).map(sum).collect()

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Findings;
 
-use super::limits::at_points::Watch;
 use super::{Built, Planner, Stopped};
+use crate::analyses::common::limits::at_points::Watch;
 use crate::points::{Field, Given, Points};
 
 /// The plan of an analysis: everything that its entry asks for, read, built and found right. `check` plans; `run` plans and reduces.
@@ -117,7 +117,7 @@ pub struct Run<'a> {
     /// The points.
     pub points: Points,
     /// What is limited at the points.
-    pub(super) watch: Option<Arc<Watch>>,
+    pub(crate) watch: Option<Arc<Watch>>,
 }
 
 impl<'a> Run<'a> {
@@ -135,7 +135,7 @@ impl<'a> Run<'a> {
     ///
     /// # Errors
     /// As [`Run::new`].
-    pub(super) fn of_gear(cx: &Planner<'_>, built: &Arc<Built<'a>>, points: Points) -> Result<Self, Stopped> {
+    pub(crate) fn of_gear(cx: &Planner<'_>, built: &Arc<Built<'a>>, points: Points) -> Result<Self, Stopped> {
         let run = Self::without_limits(cx, built, points)?;
         Ok(Self {
             watch: cx.watch(built)?.map(Arc::new),
@@ -189,7 +189,7 @@ impl<'a> Run<'a> {
     }
 
     /// Errors of the gearbox.
-    pub(super) fn findings(&self, list: Vec<Diagnostic>) -> Findings {
+    pub(crate) fn findings(&self, list: Vec<Diagnostic>) -> Findings {
         self.built.gearbox.findings(list)
     }
 }

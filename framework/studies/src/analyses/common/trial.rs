@@ -11,7 +11,7 @@ use gearloss_framework::transmission::Transmission;
 use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
-use super::{Built, Engine, Planner};
+use crate::analyses::{Built, Engine, Planner};
 use crate::study::Study;
 
 /// Stated ranges that were left: path and quantity.

@@ -3,6 +3,13 @@
 //! It solves points and jobs on all threads, or takes those that other machines have computed; reports progress; reads the limits of the
 //! study at every point; and ends when the caller interrupts.
 
+pub mod head;
+mod plan;
+mod planner;
+pub mod progress;
+mod stopped;
+mod within;
+
 use std::ops::Deref;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,13 +18,15 @@ use rayon::prelude::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::head::Head;
-use super::limits::Limit;
-use super::limits::reached::Reached;
-use super::plan::{Run, Runs};
-use super::progress::{Progress, Running};
-use super::stopped::Stopped;
-use super::{Built, Planner};
+pub use head::Head;
+pub use plan::{BuiltAgain, Plan, Run, Runs, Work};
+pub use planner::{Built, Planner, gear_of};
+use progress::{Progress, Running};
+pub use stopped::Stopped;
+pub(crate) use within::JobsWithin;
+
+use crate::analyses::common::limits::Limit;
+use crate::analyses::common::limits::reached::Reached;
 use crate::points::{Given, GridResult, Make, Numbered, Piece, solve_pieces, take_points};
 use crate::table::RowSink;
 use crate::tasks::{StorageError, Task, TaskResults};
@@ -198,7 +207,7 @@ impl<'a> Engine<'a> {
     }
 
     /// Adds the limited quantities to solved points, and notes what the limits reach.
-    pub(super) fn mark(&self, run: &Run<'_>, solved: &mut Numbered<'_>) {
+    pub(crate) fn mark(&self, run: &Run<'_>, solved: &mut Numbered<'_>) {
         let Some(watch) = &run.watch else { return };
         // Points that do not fit were rejected by the plan.
         if let Ok(reached) = watch.mark(&run.built.transmission, &run.points, solved) {

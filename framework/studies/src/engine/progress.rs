@@ -40,7 +40,7 @@ pub struct Running<'a> {
 }
 
 impl<'a> Running<'a> {
-    pub(super) fn new(progress: &'a dyn Progress, label: &str, count: usize) -> Self {
+    pub(crate) fn new(progress: &'a dyn Progress, label: &str, count: usize) -> Self {
         Self {
             progress,
             steps: progress.begin(label, count),

@@ -4,7 +4,7 @@ use gearloss_fmu::Library;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::transmission::Transmission;
 
-use super::{Planner, Stopped};
+use crate::analyses::{Planner, Stopped};
 use crate::codes;
 
 /// The libraries of FMUs: that of the own platform, and those of the files.

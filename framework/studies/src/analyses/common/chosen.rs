@@ -6,7 +6,7 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Built, Planner, Stopped, gear_of};
+use crate::analyses::{Built, Planner, Stopped, gear_of};
 use crate::study::Uses;
 
 /// What an analysis of one gear evaluates.

@@ -1,6 +1,6 @@
 //! Deviations relative to measured losses.
 
-use super::{Planner, Stopped};
+use crate::analyses::{Planner, Stopped};
 use crate::study::{Difference, Quantity};
 
 /// Whether a deviation relative to a measured loss is meaningful: the measured loss must not be zero or below a millionth of the computed

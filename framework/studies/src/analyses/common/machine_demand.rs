@@ -8,14 +8,14 @@ use gearloss_framework::evaluate::{Point, PowerFlow};
 use gearloss_framework::machine::{Machine, Reached};
 use gearloss_framework::transmission::{Case, Transmission};
 
-use super::Built;
 use super::outside_maps::MachineOutside;
+use crate::analyses::Built;
 use crate::codes;
 use crate::points::{Given, OilTemperature, Points};
 
 /// Points beyond the maps and the envelopes of machines.
 #[derive(Debug, Default)]
-pub(super) struct MachineDemand {
+pub(crate) struct MachineDemand {
     /// By model set, because several sets are solved at the same points.
     by_set: BTreeMap<String, Beyond>,
     /// Machines whose torque is not given: paths.

@@ -6,7 +6,7 @@ use crate::varied::Varied;
 use gearloss_framework::variants::Variants;
 use serde_json::Value;
 
-use super::{Built, BuiltAgain, Planner, Stopped};
+use crate::analyses::{Built, BuiltAgain, Planner, Stopped};
 
 /// A varied quantity with its range, in the unit of the path.
 pub struct Range {

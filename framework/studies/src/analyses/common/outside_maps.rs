@@ -47,7 +47,7 @@ impl MachineOutside {
     }
 
     /// At one point with a torque and a speed, and by how much they are beyond. \[Nm, rad/s\]
-    pub(super) fn beyond(
+    pub(crate) fn beyond(
         machine: &Machine,
         [torque, speed]: [f64; 2],
         [torque_beyond_nm, speed_beyond]: [f64; 2],
@@ -86,7 +86,7 @@ impl MachineOutside {
     }
 
     /// Where it is beyond something, and how far, for a finding.
-    pub(super) fn words(&self, beyond: &str) -> String {
+    pub(crate) fn words(&self, beyond: &str) -> String {
         let place = if self.size() > 0.0 {
             let excess = beyond_words(self.torque_beyond_nm, self.speed_beyond_rpm);
             format!(

@@ -13,11 +13,11 @@ use gearloss_framework::motor::MotorMap;
 use gearloss_framework::thermal::network::{Network, StepSize};
 use gearloss_framework::transmission::Transmission;
 
-use super::balance::reason;
 use super::gears::{GearOfCycles, check_gears};
 use super::shares::Shares;
 use super::trial::{Left, left};
-use super::{Built, Engine, Plan, Planner, Stopped, Work, gear_of};
+use crate::analyses::balance::reason;
+use crate::analyses::{Built, Engine, Plan, Planner, Stopped, Work, gear_of};
 
 /// A cycle as read.
 pub struct Read {
