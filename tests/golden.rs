@@ -12,9 +12,10 @@ use gearloss_studies::checked_study::CheckedStudy;
 use gearloss_studies::engine::progress::Silent;
 
 /// Cases of more than one mistake.
-const SEVERAL: [&str; 15] = [
+const SEVERAL: [&str; 16] = [
     "anchors",
     "boolean_traps",
+    "contact_faults",
     "dangling_id",
     "decimal_comma",
     "doubtful_oil_network",
@@ -26,7 +27,6 @@ const SEVERAL: [&str; 15] = [
     "oil_network_faults",
     "out_of_range",
     "over_determined",
-    "flow_of_jets_faults",
     "plain_bearing_faults",
     "two_locating_bearings",
 ];

@@ -53,8 +53,8 @@ gearloss_document::codes! {
         cause: "A loaded shaft has no bearings, so its bearing losses would be missing from every sum.",
         help: "Add its bearings, with `model: none` where they have no loss, or write `bearings: none` at the shaft.";
     SUPPORT = "E0308", "invalid bearing arrangement",
-        cause: "A shaft can tilt or move on its bearings, several bearings take its thrust, members support each other in a loop, or an `induced_thrust` or \
-                a spring does not fit a pair of bearings.",
+        cause: "A shaft can tilt or move on its bearings, several bearings take its thrust, members support each other in a loop, an `induced_thrust` or \
+                a spring does not fit a pair of bearings, or a bearing states a resistance to moments that it does not have.",
         help: "Correct the positions and the `axial` directions of the bearings, or `induced_thrust` and `spring_preload` of a pair.";
     COMPONENT = "E0309", "invalid position or model of a component",
         cause: "A component names the same member on both sides, or its model cannot be used there.",

@@ -217,7 +217,10 @@ pub fn open_regular(path: &Path) -> Result<File> {
     let metadata = std::fs::metadata(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => match list_folder(folder_of(path)) {
             Ok(files) => missing("there is no such file", path, &files),
-            Err(_) => missing(&format!("there is no folder {}", folder_of(path).display()), path, &[]),
+            Err(fault) if fault.kind() == ErrorKind::NotFound => {
+                missing(&format!("there is no folder {}", folder_of(path).display()), path, &[])
+            }
+            Err(_) => missing("there is no such file", path, &[]),
         },
         _ => error,
     })?;

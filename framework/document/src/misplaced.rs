@@ -11,6 +11,9 @@ const PLACES: usize = 3;
 /// Levels of a path that is nearer than a similar key, such as `grid.torque`.
 const NEAR: usize = 2;
 
+/// Other names of keys that count only in the record itself, because keys of any record could be called so.
+const OF_ANY_RECORD: [&str; 4] = ["type", "name", "width", "temperature"];
+
 /// Help for an unknown key.
 #[derive(Default)]
 pub(super) struct Help {
@@ -58,11 +61,12 @@ pub(super) fn help(
         return Help::of_key(close);
     }
     let is_open = |name: &str| open.contains(&name);
-    let renamed = fields
-        .iter()
-        .find(|(name, field)| is_open(name) && field.also_called.iter().any(|other| other == key));
-    if let Some((name, _)) = renamed {
-        return Help::of_key(name);
+    let is_called = |field: &Field| field.also_called.iter().any(|other| other == key);
+    let renamed = fields.iter().filter(|(name, field)| is_open(name) && is_called(field));
+    let renamed: Vec<&str> = renamed.map(|(name, _)| name.as_str()).collect();
+    if !renamed.is_empty() {
+        let written: Vec<String> = renamed.iter().map(|name| format!("`{name}`")).collect();
+        return Help::new(&renamed, format!("write {}", written.join(" or ")));
     }
     let has_word = |name: &&&str| name.split('_').any(|word| word == key);
     if let Some(name) = open.iter().find(has_word) {
@@ -201,7 +205,8 @@ fn search(schema: &Schema, shape: &Shape, key: &str, path: &str, depth: usize, f
         Shape::Record(fields) => {
             for (name, field) in fields {
                 let inner = format!("{path}.{name}");
-                if name != key && !field.also_called.iter().any(|other| other == key) {
+                let is_other_name = !OF_ANY_RECORD.contains(&key) && field.also_called.iter().any(|other| other == key);
+                if name != key && !is_other_name {
                     search(schema, &field.shape, key, &inner, depth - 1, found);
                 } else if !found.contains(&inner) {
                     found.push(inner);
@@ -274,6 +279,10 @@ mod tests {
             "it belongs to a nested record: write `list: [{ power: ... }]`"
         );
         assert_eq!(help("map: { type: a }"), "write `designation`");
+        assert_eq!(
+            help("conditions: { type: a }"),
+            "choose one of these keys, or remove it"
+        );
     }
 
     #[test]

@@ -758,7 +758,7 @@ impl<'a> Walker<'a> {
                     .filter_map(Node::text)
                     .map(|name| format!("`{name}`"))
                     .collect();
-                Some(format!("write one name: {}", names.join(" or ")))
+                (!names.is_empty()).then(|| format!("write one name: {}", names.join(" or ")))
             }
             _ => None,
         }

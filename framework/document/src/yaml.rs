@@ -94,7 +94,7 @@ impl<'a> Reader<'a> {
                 let help = if tabs {
                     "indent with spaces; YAML does not allow tabs"
                 } else if error.info().starts_with("mapping values are not allowed") {
-                    "write a text that contains a colon in quotes; otherwise check the indentation of this line and the one before it"
+                    "put a text that contains a colon in quotes; otherwise check the indentation of this line and the one before it"
                 } else {
                     "check this place and the text before it: a bracket, brace, quote or colon is missing, or the indentation is wrong"
                 };

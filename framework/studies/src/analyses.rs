@@ -391,8 +391,13 @@ impl JsonSchema for AnalysisEntry {
         let variants = AnalysisKind::linked().into_iter().map(|kind| {
             let mut variant = (kind.schema)(generator);
             let mut write = Vec::<Write>::json_schema(generator);
-            let others = if kind.formats.contains(&Write::Svg) { ", JSON and SVG" } else { " and JSON" };
-            write.insert("description".to_owned(), format!("Formats to write; default: CSV{others}.").into());
+            let names: Vec<String> = kind.formats.iter().map(|format| format!("{format:?}").to_uppercase()).collect();
+            let default = match &names[..] {
+                [] => "none".to_owned(),
+                [one] => one.clone(),
+                [first @ .., last] => format!("{} and {last}", first.join(", ")),
+            };
+            write.insert("description".to_owned(), format!("Formats to write; default: {default}.").into());
             write.insert("default".to_owned(), serde_json::json!(kind.formats));
             variant.insert("description".to_owned(), kind.meaning().into());
             variant.insert("type".to_owned(), "object".into());

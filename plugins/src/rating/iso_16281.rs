@@ -177,7 +177,17 @@ fn stiffness(found: &Equilibrium) -> [Option<f64>; 2] {
 }
 
 /// From the loads of balls.
-fn of_balls(balls: &Balls, found: &Equilibrium, rotating: Rotating, loads: Vec<BallLoad>) -> Distribution {
+fn of_balls(
+    balls: &Balls,
+    found: &Equilibrium,
+    rotating: Rotating,
+    loads: Vec<BallLoad>,
+    at: &BearingAt<'_>,
+) -> Distribution {
+    let is_steep = |ball: &BallLoad| ball.load[0] > 0.0 && ball.angle[0].abs().to_degrees() > GREATEST_ANGLE;
+    if loads.iter().any(is_steep) {
+        at.branch("contact angles beyond 80 deg: balls run over the shoulder of the inner ring");
+    }
     let (mut greatest, mut pressure, mut loaded) = (0.0_f64, 0.0_f64, 0.0);
     for ball in &loads {
         for (contact, load) in balls.contacts().iter().zip(ball.load) {
@@ -221,7 +231,7 @@ impl Prepared {
     fn distribution(&self, elements: &Elements, at: &BearingAt<'_>) -> Option<Distribution> {
         let tilted = |given: Axes<Given>, arm: f64| {
             if at.tilting > 0.0 {
-                at.branch("the tilting moment is in the plane of the radial load");
+                at.branch("the tilting moment is in the plane of the radial load, in the sense that loads the most loaded element more");
                 given.with_moment(at.tilting + at.radial * arm)
             } else {
                 given.with_tilt(self.params.misalignment)
@@ -247,15 +257,11 @@ impl Prepared {
                     let found = balls.balance_at_speed(at.speed.abs(), &given).ok()?;
                     let row = balls.at_speed(at.speed);
                     let loads: Vec<BallLoad> = row.loads(&found.displacement).map(|ball| ball.contacts).collect();
-                    let is_steep = |ball: &BallLoad| ball.load[0] > 0.0 && ball.angle[0].to_degrees() > GREATEST_ANGLE;
-                    if loads.iter().any(is_steep) {
-                        at.branch("balls that centrifugal force holds on the outer ring run over the shoulder of the inner one");
-                    }
-                    Some(of_balls(balls, &found, rotating, loads))
+                    Some(of_balls(balls, &found, rotating, loads, at))
                 } else {
                     let found = balance(balls, &given).ok()?;
                     let loads = balls.loads(&found.displacement).collect();
-                    Some(of_balls(balls, &found, rotating, loads))
+                    Some(of_balls(balls, &found, rotating, loads, at))
                 }
             }
             ElementRow::Rollers(rollers) => {

@@ -48,7 +48,7 @@ pub struct SupportPlace {
     /// depend on it, unless they have a tilting stiffness; those of more bearings and the misalignment of gears do.
     pub radial_stiffness: Option<RadialStiffness>,
     /// Tilting stiffness; default: none. A number, or a load at which it follows from the rolling elements. A shaft on several bearings, of which
-    /// one has it, needs `sections`.
+    /// one has it, needs `sections`. A bearing that supports a shaft alone takes its whole moment, however stiff.
     pub tilting_stiffness: Option<TiltingStiffness>,
     /// Oil height above the axis, if the bearing has a separate oil pocket. [mm]
     #[schemars(range(min = -1e4, max = 1e4))]

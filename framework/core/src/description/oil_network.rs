@@ -8,10 +8,10 @@ use super::every_mesh::OilOfComponent;
 use crate::hydraulics::{Orifice, Rib};
 
 /// A network of oil flows. Elements lead from `sump` or a junction to a junction, a chamber, `sump` or `housing`, the air of the housing.
-/// Pressures are those over the air of the housing.
+/// Pressures are those over the air of the housing. Only a circuit with neither `sump` nor chambers may have another oil than the housing.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 pub struct OilNetworkEntry {
-    /// Its oil; only a circuit with neither `sump` nor chambers may have another one than the housing.
+    /// Its oil.
     #[serde(flatten)]
     pub oil: OilOfComponent,
     /// Volume share of free air in the oil: lowers the density, raises the viscosity, and pumps deliver less oil; 0 to 0.2. [-]

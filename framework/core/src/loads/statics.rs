@@ -79,7 +79,9 @@ impl Statics {
         };
         match supports {
             [] => Ok(Self::None),
-            [(_, only)] if member.loose || member.planet.is_some() || only.takes_moment => {
+            [(_, only)]
+                if member.loose || member.planet.is_some() || only.takes_moment || only.tilting_stiffness.is_some() =>
+            {
                 Ok(Self::One { at: only.at })
             }
             [_] => Err(mechanism()),

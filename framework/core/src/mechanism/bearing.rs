@@ -199,6 +199,7 @@ pub struct BearingEntry {
     #[schemars(extend("x-refers-to" = "catalogue", "x-also-called" = ["type", "name"]))]
     pub designation: Option<String>,
     /// Kind of the bearing.
+    #[schemars(extend("x-also-called" = ["type"]))]
     pub kind: Option<BearingKind>,
     /// Dimension series, as in the tables of the loss models.
     pub series: Option<String>,

@@ -11,7 +11,7 @@ impl Balls {
     /// The equilibrium at a speed of the inner ring (rad/s), from that at rest; where it is far from it, in steps of speed.
     ///
     /// # Errors
-    /// If there is none at rest.
+    /// If there is none of the stationary ring, or none is found at steps of a thousandth of the speed.
     pub fn balance_at_speed(&self, speed: f64, given: &Axes<Given>) -> Result<Equilibrium, Unbalanced> {
         follow(balance(self, given)?, speed, |speed, start| {
             balance_from(&self.at_speed(speed), given, start)

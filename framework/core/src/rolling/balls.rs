@@ -126,7 +126,8 @@ impl Balls {
         self.stiffness
     }
 
-    /// Distance of the pressure centre, in which a radial load does not tilt the ring, from the middle of the row along the axis. \[m\]
+    /// Distance of the pressure centre, in which a radial load does not tilt the ring, from the plane of the centres of the inner groove, about which
+    /// the moments of the row are, along the axis. \[m\]
     pub fn pressure_centre(&self) -> f64 {
         self.radius * self.geometry.contact_angle.tan()
     }

@@ -69,7 +69,7 @@ fn repeated(entry: &GearboxEntry) -> Vec<Diagnostic> {
     let meshes: Vec<(&str, [String; 2])> = entry.meshes.iter().map(|(id, mesh)| (id, pair(mesh))).collect();
     let repeated = meshes.iter().enumerate().filter_map(|(i, (id, gears))| {
         let (other, [a, b]) = meshes[..i].iter().find(|(_, earlier)| earlier == gears)?;
-        let message = format!("`{a}` and `{b}` are the gears of `meshes.{other}` already");
+        let message = format!("`{a}` and `{b}` are already the gears of `meshes.{other}`");
         Some(
             Diagnostic::error(format!("meshes.{id}.gears"), message)
                 .help("delete one of these meshes, or name other gears"),
@@ -343,7 +343,7 @@ impl<'a> Gearing<'a> {
             .help(format!("write gears: [{}, {}]", second.id, first.id))
         } else if first.member == second.member {
             let shaft = &self.members.names[first.member];
-            let message = format!("`{}` and `{}` are both on `{shaft}`", first.id, second.id);
+            let message = format!("`{}` and `{}` cannot mesh: both are on `{shaft}`", first.id, second.id);
             Diagnostic::error(format!("{path}.gears"), message).help("correct `shaft` of one of them")
         } else {
             return Some(pair);

@@ -550,12 +550,17 @@ pub(crate) fn explain(
                 .code(codes::UNDERDETERMINED);
             if among.is_empty() {
                 let standing = columns.first().map(name).unwrap_or_default();
-                error.help(match (state.name.as_str(), mesh_of_lone_gears(&state.lone_gears)) {
-                    (_, Some(help)) => help,
-                    (ONLY, None) => format!(
+                let other = match state.name.as_str() {
+                    ONLY => format!(
                         "connect it by a mesh, or hold it: `gear_states: {{ drive: {{ engaged: [], standstill: [{standing}] }} }}`"
                     ),
-                    (state, None) => format!("engage a coupling, or write `{state}: {{ engaged: [...], standstill: [{standing}] }}`"),
+                    state => {
+                        format!("engage a coupling, or write `{state}: {{ engaged: [...], standstill: [{standing}] }}`")
+                    }
+                };
+                error.help(match mesh_of_lone_gears(&state.lone_gears) {
+                    Some(help) => format!("{help}; otherwise {other}"),
+                    None => other,
                 })
             } else {
                 let speed = format!(
@@ -606,11 +611,8 @@ pub(crate) fn explain(
 fn mesh_of_lone_gears(gears: &[String]) -> Option<String> {
     match gears {
         [] => None,
-        [one] => Some(format!("`{one}` has no mesh: add it to `meshes`")),
-        several => Some(format!(
-            "`{}` have no mesh: add theirs to `meshes`",
-            several.join("`, `")
-        )),
+        [one] => Some(format!("`{one}` is in no mesh: add its mesh")),
+        several => Some(format!("`{}` are in no mesh: add their meshes", several.join("`, `"))),
     }
 }
 

@@ -142,6 +142,7 @@ pub fn shaft_loads(
     }
     preloads::mark(&mut layout, supports, designs, &members.names, found);
     unsupported(entry, members, &layout, found, warnings);
+    found.extend(moments_not_taken(&layout, supports, members));
     warnings.extend(
         supports
             .iter()
@@ -457,6 +458,43 @@ fn unsupported(
             );
         }
     }
+}
+
+/// Reports bearings with a stated resistance to moments that nothing uses.
+fn moments_not_taken(layout: &Layout, supports: &[SeatedSupport], members: &Members) -> Vec<Diagnostic> {
+    let carried: Vec<usize> = layout
+        .supports
+        .iter()
+        .map(|support| layout.carried(support).0)
+        .collect();
+    let carrying = |member: usize| {
+        let on = carried.iter().zip(&layout.supports);
+        on.filter(|(on, support)| **on == member && support.takes_radial)
+            .count()
+    };
+    let each = supports.iter().zip(&layout.supports).zip(&carried);
+    each.filter_map(|((seat, support), member)| {
+        let path = &seat.path;
+        if !support.takes_radial && (support.takes_moment || seat.place.tilting_stiffness.is_some()) {
+            let key = if support.takes_moment {
+                "takes_moment"
+            } else {
+                Stiffness::Tilting.key()
+            };
+            let message = "a bearing that carries thrust only takes no moment here";
+            return Some(
+                Diagnostic::error(format!("{path}.{key}"), message)
+                    .help(format!("delete `{key}`, or state it at a radial bearing")),
+            );
+        }
+        (support.takes_moment && carrying(*member) > 1).then(|| {
+            let shaft = &members.names[*member];
+            let message = format!("several bearings carry `{shaft}`, so none takes its moment alone");
+            Diagnostic::error(format!("{path}.takes_moment"), message)
+                .help("delete `takes_moment`; state `tilting_stiffness` of a bearing that resists to tilting")
+        })
+    })
+    .collect()
 }
 
 /// Reports an assignment of thrust that does not match the design of a bearing.

@@ -28,7 +28,8 @@ use crate::register_analysis;
 use crate::study::{By, CycleGear, Data, Difference, Quantity, RideEntry, Uses};
 use crate::table::Table;
 
-/// Difference between model sets, products and variants over a grid or over cycles, or from a measurement.
+/// Difference between model sets, products and variants over a grid or over cycles, or from a measurement; figures show the differences and, with
+/// data, parity.
 ///
 /// Over cycles the differences of the mean loss are split by share and by phase of the cycle.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

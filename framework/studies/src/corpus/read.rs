@@ -62,7 +62,7 @@ impl Corpus {
             let message = format!("{} contains no set: no folder with `{SOURCE}`", folder.display());
             return Err(unreadable(
                 message,
-                "name a gearbox or study file; a folder is checked as a corpus of measured sets",
+                "name the folder of a corpus or of one measured set; to check a gearbox or a study, name its file",
             ));
         }
         let (mut sets, mut wrong) = (Vec::new(), Vec::new());

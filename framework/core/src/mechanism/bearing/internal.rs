@@ -92,15 +92,24 @@ pub struct Elements {
 const HALF_LOADED: [f64; 2] = [1.216, 1.258];
 
 /// A stiffness of a row under a thrust and a radial load on a ring that does not tilt.
-fn stiffness_of(row: &impl Row, stiffness: Stiffness, [axial, radial]: [f64; 2]) -> Option<f64> {
+///
+/// # Errors
+/// What the elements do that gives none.
+fn stiffness_of(row: &impl Row, stiffness: Stiffness, [axial, radial]: [f64; 2]) -> Result<f64, &'static str> {
+    const UNBALANCED: &str = "have no equilibrium";
     let given = Axes::loaded(axial, radial);
-    let level = balance(row, &given).ok()?;
+    let level = balance(row, &given).map_err(|_| UNBALANCED)?;
     match stiffness {
-        Stiffness::Radial => Some(radial / level.displacement.radial[0]).filter(|stiffness| *stiffness > 0.0),
+        Stiffness::Radial => {
+            let found = radial / level.displacement.radial[0];
+            if found > 0.0 { Ok(found) } else { Err(UNBALANCED) }
+        }
         Stiffness::Tilting => {
             // Free, under the moment that holds it.
             let given = given.with_moment(level.load.tilt[0]).mirrored();
-            balance_from(row, &given, &level.displacement).ok()?.tilting_stiffness()
+            let free = balance_from(row, &given, &level.displacement).map_err(|_| UNBALANCED)?;
+            free.tilting_stiffness()
+                .ok_or("do not resist to a tilt, too few of them being loaded,")
         }
     }
 }
@@ -118,11 +127,7 @@ impl Elements {
             ElementRow::Balls(row) => stiffness_of(row, stiffness, loads(row.geometry().contact_angle, balls)),
             ElementRow::Rollers(row) => stiffness_of(row, stiffness, loads(row.geometry().contact_angle, rollers)),
         };
-        found.ok_or_else(|| {
-            Cow::Owned(format!(
-                "its rolling elements have no equilibrium under a radial load of {load} N"
-            ))
-        })
+        found.map_err(|what| Cow::Owned(format!("its rolling elements {what} under a radial load of {load} N")))
     }
 }
 

@@ -7,7 +7,7 @@ use crate::names::{SetNames, cycle, share};
 use crate::page::Page;
 use crate::text::{figures, in_brackets, short};
 
-/// Share of the consumption from which missing energy matters; the details state less.
+/// Share of the consumption above which missing energy is a warning; the details state any.
 const NOTICED: f64 = 1e-3;
 
 pub fn add(outcome: &CycleOutcome, page: &mut Page) {

@@ -82,14 +82,18 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
     if locked > 0 {
         let count = points().count();
         page.careful.push(format!(
-            "the drive locks itself at {locked} of {count} points, which have no loss"
+            "the drive locks itself at {locked} of the {count} points shown, which have no loss"
         ));
     }
     let missing = points()
         .filter(|(_, point)| point.loss.is_none() && !point.locked)
         .count();
     if missing > 0 {
-        let points = if missing == 1 { "point has" } else { "points have" };
+        let points = if missing == 1 {
+            "point shown has"
+        } else {
+            "points shown have"
+        };
         page.careful
             .push(format!("{missing} {points} no power flow or no defined loss"));
     }
@@ -104,7 +108,7 @@ pub fn add(outcome: &MapOutcome, page: &mut Page) {
     page.headline = (!words.is_empty()).then(|| capitalised(&format!("{count}{}", words.join("; "))));
 }
 
-/// The speed up to which no point has a power flow, as of a drive that locks itself, while all faster ones have.
+/// The speed up to which no point has a loss, as of a drive that locks itself, while all faster ones have.
 fn standstill(outcome: &MapOutcome) -> Option<String> {
     let points = || outcome.maps.iter().flat_map(|map| &map.shown.points);
     let speeds = |has_loss: bool| {
@@ -117,7 +121,7 @@ fn standstill(outcome: &MapOutcome) -> Option<String> {
     let (stands, moves) = if points().all(|point| point.loss.is_some() || point.locked) {
         ("the drive locks itself", "it moves")
     } else {
-        ("no point has a power flow", "every one has")
+        ("no point has a loss", "every one has")
     };
     (fastest < slowest).then(|| {
         format!(

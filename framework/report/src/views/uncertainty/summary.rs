@@ -7,9 +7,11 @@ use crate::names::quantity;
 use crate::page::Page;
 use crate::text::{extremes, label_of_set, of_set, place, range, short};
 
-/// The greatest correlation that unrelated quantities show in this number of samples with a probability of 95 %, by Fisher's transformation.
-fn greatest_by_chance(samples: f64) -> f64 {
-    (1.96 / (samples - 3.0).max(1.0).sqrt()).tanh()
+/// The largest correlation that chance gives among unrelated inputs in this number of samples, with a probability of at least 95 %: Fisher's
+/// transformation, with the tail of the normal distribution bounded by exp(-x^2/2).
+fn largest_by_chance(samples: f64, inputs: f64) -> f64 {
+    let x = (2.0 * (inputs / 0.05).ln()).sqrt();
+    (x / (samples - 3.0).max(1.0).sqrt()).tanh()
 }
 
 pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
@@ -46,7 +48,7 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
         let strongest = set.inputs.first();
         if let Some((input, strength)) = strongest.and_then(|i| Some((i, i.correlation_with_mean_loss?))) {
             let of = of_set(&set.model_set, outcome.bands.len());
-            let chance = greatest_by_chance(set.samples as f64);
+            let chance = largest_by_chance(set.samples as f64, set.inputs.len() as f64);
             if strength.abs() > chance {
                 let (name, strength) = (quantity(&input.path), short(strength));
                 correlations.push(format!("{strength} ({name}) {of}").trim_end().to_owned());
@@ -55,9 +57,12 @@ pub fn add(outcome: &UncertaintyOutcome, page: &mut Page) {
             } else {
                 let samples = set.samples;
                 correlations.push(
-                    format!("within chance for {samples} samples (up to {}) {of}", short(chance))
-                        .trim_end()
-                        .to_owned(),
+                    format!(
+                        "no larger than chance gives with {samples} samples ({}) {of}",
+                        short(chance)
+                    )
+                    .trim_end()
+                    .to_owned(),
                 );
             }
         }

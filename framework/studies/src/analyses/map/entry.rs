@@ -10,7 +10,7 @@ use super::map_of::MapOf;
 use crate::correction::CorrectionFrom;
 use crate::study::Data;
 
-/// Losses and efficiency over a grid.
+/// Losses and efficiency over a grid; figures show efficiency, loss and, with a heat balance, temperature.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 pub struct MapEntry {
     /// Gearbox; default: the first.
