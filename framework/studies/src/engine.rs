@@ -7,7 +7,7 @@ pub mod head;
 mod plan;
 mod planner;
 pub mod progress;
-mod stopped;
+pub(crate) mod stopped;
 mod within;
 
 use std::ops::Deref;
@@ -25,7 +25,7 @@ use progress::{Progress, Running};
 pub use stopped::Stopped;
 pub(crate) use within::JobsWithin;
 
-use crate::analyses::common::limits::Limit;
+use crate::analyses::common::limits::limit::Limit;
 use crate::analyses::common::limits::reached::Reached;
 use crate::points::{Given, GridResult, Make, Numbered, Piece, solve_pieces, take_points};
 use crate::table::RowSink;

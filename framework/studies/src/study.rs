@@ -9,7 +9,7 @@ mod drive;
 mod files;
 mod gear;
 mod identify;
-mod limits;
+pub(crate) mod limits;
 mod names;
 mod parameters;
 mod range;

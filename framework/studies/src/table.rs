@@ -13,7 +13,7 @@ use schemars::{JsonSchema, SchemaGenerator};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::analyses::Stopped;
+use crate::engine::stopped::Stopped;
 
 /// A table of results.
 #[derive(Debug, Clone, PartialEq)]

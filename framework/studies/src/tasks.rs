@@ -15,7 +15,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use crate::analyses::Stopped;
+use crate::engine::stopped::Stopped;
 
 /// Why results cannot be written, or stored results of tasks not be read.
 #[derive(Debug, thiserror::Error)]

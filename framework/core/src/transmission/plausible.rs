@@ -106,6 +106,8 @@ pub fn shifts(path: &str, spec: &PairSpec, pair: &Pair, follows: [bool; 2], most
 }
 
 fn other_teeth(teeth: u32, instead_of: u32, shift: f64) -> String {
+    // Never a negative zero.
+    let shift = (1e3 * shift).round() / 1e3 + 0.0;
     format!("with {teeth} teeth instead of {instead_of} the second gear would have x2 = {shift:.3}")
 }
 

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::Limit;
-use crate::study::Severity;
+use super::limit::Limit;
+use crate::study::limits::Severity;
 
 /// A limit of the study over all points or cycles of an analysis with one model set.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
