@@ -18,11 +18,26 @@ fn steps() -> [usize; 2] {
 }
 
 #[test]
-fn no_beginning_of_an_example_makes_the_engine_panic_or_wait() {
+fn no_beginning_of_a_gearbox_makes_the_engine_panic_or_wait() {
+    type_examples("gearloss: gearbox/1");
+}
+
+#[test]
+fn no_beginning_of_a_study_makes_the_engine_panic_or_wait() {
+    type_examples("gearloss: study/1");
+}
+
+/// Types the examples of a kind of document.
+fn type_examples(kind: &str) {
     let [step, step_of_findings] = steps();
     let mut workspace = Workspace::new(language(), Disk::shared());
-    for file in examples() {
+    let texts = examples().into_iter().map(|file| {
         let text = std::fs::read_to_string(&file).unwrap();
+        (file, text)
+    });
+    let of_kind: Vec<_> = texts.filter(|(_, text)| text.contains(kind)).collect();
+    assert!(of_kind.len() > 10, "{kind}: {} examples", of_kind.len());
+    for (file, text) in of_kind {
         for end in (0..=text.len()).step_by(step) {
             let Some(beginning) = text.get(..end) else { continue };
             workspace.open(&file, beginning);
