@@ -82,12 +82,11 @@ impl Column {
     /// A column of an array of numbers, or of a list of texts with `None` for gaps.
     #[new]
     fn from_values(name: String, unit: String, meaning: String, values: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let cells = match values.extract::<PyReadonlyArray1<'_, f64>>() {
-            Ok(numbers) => Cells::numbers(values.py(), numbers.as_array().to_vec()),
-            Err(_) => {
-                let texts: Vec<Option<String>> = values.extract()?;
-                Cells::texts(texts.iter().map(Option::as_deref))
-            }
+        let cells = if let Ok(numbers) = values.extract::<PyReadonlyArray1<'_, f64>>() {
+            Cells::numbers(values.py(), numbers.as_array().to_vec())
+        } else {
+            let texts: Vec<Option<String>> = values.extract()?;
+            Cells::texts(texts.iter().map(Option::as_deref))
         };
         Ok(Self {
             name,
