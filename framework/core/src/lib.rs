@@ -91,6 +91,7 @@ pub mod lubricant;
 pub mod machine;
 pub mod material;
 pub mod motor;
+mod random;
 pub mod real;
 pub mod rolling;
 pub mod sump;

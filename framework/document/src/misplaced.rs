@@ -148,15 +148,17 @@ fn at_named_entry(schema: &Schema, fields: &[(String, Field)], open: &[&str], ke
     let Shape::Record(sections) = schema.follow(&schema.root) else {
         return None;
     };
-    let has_key = |section: &str| {
-        let (_, field) = sections.iter().find(|(name, _)| name == section)?;
-        let Shape::Ids { item, .. } = schema.follow(&field.shape) else {
-            return None;
-        };
-        matches!(schema.follow(item), Shape::Record(keys) if keys.iter().any(|(name, _)| name == key)).then_some(())
+    let is_key_of =
+        |item: &Shape| matches!(schema.follow(item), Shape::Record(keys) if keys.iter().any(|(name, _)| name == key));
+    let has_key = |section: &&String| {
+        let field = sections
+            .iter()
+            .find(|(name, _)| name == *section)
+            .map(|(_, field)| field);
+        field.is_some_and(|field| matches!(schema.follow(&field.shape), Shape::Ids { item, .. } if is_key_of(item)))
     };
     fields.iter().find_map(|(name, field)| {
-        let section = field.refers_to.iter().find(|section| has_key(section).is_some())?;
+        let section = field.refers_to.iter().find(has_key)?;
         let path = format!("`{section}.*.{key}`");
         Some(if open.contains(&name.as_str()) {
             let words =

@@ -2,6 +2,7 @@
 
 use crate::loss::{NoteBase, Notebook, Notes, Undefined};
 use crate::mechanism::{Answer, Inputs as _, Mechanism, differences};
+use crate::random::Random;
 use crate::real::{DIRECTIONS, Dual, Stencil};
 
 /// Number of contexts.
@@ -81,9 +82,9 @@ fn context<'a, M: Mechanism>(part: &'a M::Part, random: &mut Random) -> M::At<'a
     let mut at = M::usual(part, Notes::MUTED);
     for q in M::QUANTITIES {
         let value = if q.usual == 0.0 {
-            0.01 * q.greatest * random.next()
+            0.01 * q.greatest * random.share()
         } else {
-            q.usual * 4.0_f64.powf(2.0 * random.next() - 1.0)
+            q.usual * 4.0_f64.powf(2.0 * random.share() - 1.0)
         };
         (q.set)(&mut at, q.unit.to_si(value.clamp(q.least, q.greatest)));
     }
@@ -96,20 +97,7 @@ fn direction<'a, M: Mechanism>(at: &M::At<'a, f64>, part: &'a M::Part, random: &
     for q in M::QUANTITIES {
         let flag = q.least == 0.0 && q.greatest == 1.0;
         let size = if flag { 0.0 } else { (q.get)(at) };
-        (q.set)(&mut direction, size * (2.0 * random.next() - 1.0));
+        (q.set)(&mut direction, size * (2.0 * random.share() - 1.0));
     }
     direction
-}
-
-/// Random numbers from zero to one, the same in each run (Steele, Lea, Flood: SplitMix).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((x ^ (x >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
