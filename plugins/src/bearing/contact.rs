@@ -14,7 +14,7 @@
 //! The rolling resistance of a lightly loaded element hardly depends on its load and ends where it comes free: under a thrust that turns the contacts
 //! of balls, the loss of a bearing may fall by some per cent while its load grows.
 //!
-//! Steady loads, stationary outer ring, no skidding, pockets of the cage without friction; on lands of a ring only if `cage` states them (Petroff, a
+//! Steady loads, stationary outer ring, balls up to a speed factor of 4e6 mm/min, no skidding, pockets of the cage without friction; on lands of a ring only if `cage` states them (Petroff, a
 //! concentric gap full of oil). Flooded rolling laws of rollers are about twice the measurement of a 32216 in an oil bath (Wingertszahn and others
 //! 2023); Zhou and Hoeprich alone are 13 to 27 % above it. Internal geometry is rarely in catalogues: what is estimated decides the result, see
 //! `internal`. Not for bearings with several rows.
@@ -204,6 +204,9 @@ const AIR: f64 = 1.1;
 const ENOUGH: f64 = 1.05;
 /// Speed factor above which the inertia of balls matters, a convention. \[mm/min\]
 pub(crate) const FAST: f64 = 0.3e6;
+/// Speed factor up to which balls are balanced, a convention: aircraft engines end below it, and far beyond it inertia leaves some rings without a
+/// stable equilibrium. \[mm/min\]
+pub(crate) const FASTEST: f64 = 4e6;
 /// Contact angle that shoulders of grooves do not reach: they would be 0.41 D high. A convention. \[deg\]
 pub(crate) const GREATEST_ANGLE: f64 = 80.0;
 /// Branch of an explanation where internal geometry is not stated.
@@ -459,7 +462,14 @@ impl Contacts {
         let speed = at.speed.abs();
         let given = loads_on_ring(at, at.axial, balls.geometry().contact_angle, balls.pressure_centre()).mirrored();
         let (row, moving) = (Mirrored(balls), balls.at_speed(speed));
-        let is_fast = at.part.mean_diameter().mm() * speed.rpm() > FAST;
+        let speed_factor = at.part.mean_diameter().mm() * speed.rpm();
+        if speed_factor > FASTEST {
+            return Err(Undefined {
+                what: "speed factor n d_m of balls, of which 4e6 is the most [mm/min]",
+                value: speed_factor,
+            });
+        }
+        let is_fast = speed_factor > FAST;
         let found = if is_fast {
             balls.balance_mirrored(speed, &given)
         } else {
@@ -907,8 +917,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(256))]
 
-        /// At any load, speed and viscosity, of few elements or many, each power is a number and not negative, and even in the sense of rotation. A
-        /// flooded, unheated inlet takes more of a more viscous oil.
+        /// At any load, speed and viscosity, of few elements or many, each power is a number and not negative, and even in the sense of rotation;
+        /// balls beyond their stated speed are refused. A flooded, unheated inlet takes more of a more viscous oil.
         #[test]
         fn extremes_have_finite_losses(
             kind in 0..5_usize, number in 3..=12_u32, logs in [-6.0..6.0_f64, -6.0..6.0_f64, -6.0..4.0_f64],
@@ -939,14 +949,16 @@ mod tests {
                 })
             };
             let nu = 10_f64.powf(log_nu) * 1e-6;
+            let is_too_fast = kind < 2 && part.mean_diameter().mm() * rpm > FASTEST;
             for tilting in [0.0, if pure == 3 { moment } else { 0.0 }] {
                 let loss = match model.loss(&at(rpm, nu, tilting)) {
                     Ok(loss) => loss,
                     Err(refused) => {
-                        prop_assert!(tilting > 0.0, "{} {}", refused.what, refused.value);
+                        prop_assert!(is_too_fast || tilting > 0.0, "{} {}", refused.what, refused.value);
                         continue;
                     }
                 };
+                prop_assert!(!is_too_fast);
                 let speed = rpm * RPM;
                 for term in 0..5 {
                     let power = loss.watts(term, speed);
@@ -955,8 +967,10 @@ mod tests {
                     prop_assert!((back - power).abs() <= 1e-9 * power, "{term}: {power} {back}");
                 }
             }
-            let rolling = |nu: f64| model.loss(&at(rpm, nu, 0.0).with(|to| to.beta = 0.0)).unwrap().watts(0, rpm * RPM);
-            prop_assert!(rolling(1.5 * nu) >= rolling(nu), "{} {}", rolling(nu), rolling(1.5 * nu));
+            if !is_too_fast {
+                let rolling = |nu: f64| model.loss(&at(rpm, nu, 0.0).with(|to| to.beta = 0.0)).unwrap().watts(0, rpm * RPM);
+                prop_assert!(rolling(1.5 * nu) >= rolling(nu), "{} {}", rolling(nu), rolling(1.5 * nu));
+            }
         }
     }
 }

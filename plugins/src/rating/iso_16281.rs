@@ -26,7 +26,7 @@ use gearloss_framework::rolling::{Axes, BallGeometry, BallLoad, Balls, Equilibri
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::bearing::contact::{ESTIMATED, FAST, GREATEST_ANGLE};
+use crate::bearing::contact::{ESTIMATED, FAST, FASTEST, GREATEST_ANGLE};
 
 use super::at_least_unless_zero;
 
@@ -252,6 +252,9 @@ impl Prepared {
                 }
                 let given = tilted(Axes::loaded(axial, at.radial), balls.pressure_centre());
                 let factor = at.speed.rpm().abs() * (1e3 * balls.geometry().pitch_diameter);
+                if factor > FASTEST {
+                    return None;
+                }
                 if factor > self.params.inertia_from && rotating == Rotating::Inner {
                     at.branch("balls with centrifugal force and gyroscopic moment");
                     let found = balls.balance_at_speed(at.speed.abs(), &given).ok()?;

@@ -201,13 +201,13 @@ pub(super) fn along([axial, radial]: [f64; 2], load: f64, slope: f64, distance: 
 }
 
 /// The same of a force in the axial and the radial direction with its derivatives, where a tilt moves as an axial displacement.
-pub(super) fn local(force: [f64; 2], k: [[f64; 2]; 2], load: f64) -> LocalForce {
+pub(super) fn local(force: [f64; 2], k: [[f64; 2]; 2], size: f64) -> LocalForce {
     let [axial, radial] = force;
     let [[aa, ar], [ra, rr]] = k;
     LocalForce {
         force: [axial, radial, axial],
         stiffness: [[aa, ar, aa], [ra, rr, ra], [aa, ar, aa]],
-        load,
+        size,
     }
 }
 

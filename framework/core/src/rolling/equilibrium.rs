@@ -94,8 +94,8 @@ pub struct LocalForce {
     pub force: [f64; 3],
     /// Its derivatives.
     pub stiffness: [[f64; 3]; 3],
-    /// Greatest load of the element on a ring. \[N\]
-    pub load: f64,
+    /// Greatest of the forces that balance each other in it, of which 1e-14 is rounding: zero without contact. \[N\]
+    pub size: f64,
 }
 
 /// A row of rolling elements around a ring.
@@ -181,20 +181,20 @@ const ROUNDING: f64 = 1e-14;
 struct Reaction {
     force: Vector,
     stiffness: Matrix,
-    /// Sum of the loads of the elements.
-    loads: f64,
+    /// Sum of the forces that balance each other in the elements.
+    sizes: f64,
 }
 
 fn reaction(row: &impl Row, u: &Vector) -> Reaction {
     let mut sum = Reaction {
         force: Vector::zeros(),
         stiffness: Matrix::zeros(),
-        loads: 0.0,
+        sizes: 0.0,
     };
     for (element, [cos, sin]) in row.directions().iter().enumerate() {
         let plane = [u[0], u[1] * cos + u[2] * sin, u[3] * cos + u[4] * sin];
         let own = row.force(element, plane);
-        if own.load == 0.0 {
+        if own.size == 0.0 {
             continue;
         }
         // Direction in the plane of the element, and share of each degree of freedom.
@@ -205,7 +205,7 @@ fn reaction(row: &impl Row, u: &Vector) -> Reaction {
                 sum.stiffness[(i, j)] += share * other * own.stiffness[*to][*from];
             }
         }
-        sum.loads += own.load;
+        sum.sizes += own.size;
     }
     sum
 }
@@ -285,12 +285,12 @@ impl Problem {
 
     /// The residual at which a search ends. \[N\]
     fn wanted(&self, at: &Reaction) -> f64 {
-        (ROUNDING * at.loads).max(WANTED * self.load.amax())
+        (ROUNDING * at.sizes).max(WANTED * self.load.amax())
     }
 
     /// The largest residual of an equilibrium. \[N\]
     fn accepted(&self, at: &Reaction) -> f64 {
-        (10.0 * ROUNDING * at.loads).max(ACCEPTED * self.load.amax())
+        (10.0 * ROUNDING * at.sizes).max(ACCEPTED * self.load.amax())
     }
 
     /// The inverse of this stiffness.
@@ -422,7 +422,7 @@ fn search(row: &impl Row, given: &Axes<Given>, start: Option<&Axes<f64>>) -> Res
     let scaled =
         |v: &Vector, factor: fn(f64, f64) -> f64| Axes::from_array(std::array::from_fn(|i| factor(v[i], lengths[i])));
     let mut compliance = problem.compliance(&at.stiffness, 0.0)?;
-    for i in (0..5).filter(|i| problem.is_held[*i] || at.loads == 0.0) {
+    for i in (0..5).filter(|i| problem.is_held[*i] || at.sizes == 0.0) {
         compliance[(i, i)] = f64::INFINITY;
     }
     Ok(Equilibrium {

@@ -138,6 +138,8 @@ fn downhill(stiffness: Matrix, off: [f64; 2], least: f64) -> [f64; 2] {
 
 /// Friction of the gyroscopic moment over the centrifugal force and the sine of the outer contact angle: 2/D times m D^2/10 times d_m/D over m d_m/2.
 const GYROSCOPIC: f64 = 0.4;
+/// Rounding of a place over that of a force as [`LocalForce::size`] has it.
+const ROUNDING_OF_PLACES: f64 = 2.0 * f64::EPSILON / 1e-14;
 /// Steps after which the search for the place of a ball ends.
 const STEPS: usize = 100;
 
@@ -357,8 +359,10 @@ impl Row for BallsAtSpeed<'_> {
         let columns = [0, 1].map(|j| solve(both, [moved[0][j], moved[1][j]]));
         let k = [0, 1]
             .map(|i| [0, 1].map(|j| of_inner[i][j] - of_inner[i][0] * columns[j][0] - of_inner[i][1] * columns[j][1]));
-        let greatest = inner.load.max(at.contacts[1].load);
-        local(inner.direction.map(|part| inner.load * part), k, greatest)
+        // Under the lightest loads, rounding of the places decides.
+        let places = ROUNDING_OF_PLACES * inner.slope * self.balls.geometry().groove_distance();
+        let size = inner.load.max(at.contacts[1].load).max(places);
+        local(inner.direction.map(|part| inner.load * part), k, size)
     }
 
     fn guess(&self, axial: f64, radial: f64) -> [f64; 2] {

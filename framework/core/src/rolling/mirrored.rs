@@ -31,7 +31,7 @@ impl<R: Row> Row for Mirrored<&R> {
         LocalForce {
             force: own.force.map(|force| count * force),
             stiffness: own.stiffness.map(|row| row.map(|stiffness| count * stiffness)),
-            load: count * own.load,
+            size: count * own.size,
         }
     }
 

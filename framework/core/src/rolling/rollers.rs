@@ -206,7 +206,7 @@ impl Row for Rollers {
                     sum.stiffness[i][j] += share * other * slope;
                 }
             }
-            sum.load += load;
+            sum.size += load;
         }
         sum
     }

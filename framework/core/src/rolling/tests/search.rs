@@ -1,19 +1,9 @@
 //! Many random bearings, of which every one has its equilibrium.
 
 use super::*;
-
-/// Uniform numbers with a fixed seed (SplitMix64).
-struct Random(u64);
+use crate::random::Random;
 
 impl Random {
-    fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
     fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.share()
     }
@@ -87,6 +77,21 @@ impl Fast {
         }
     }
 
+    /// The same under loads from a millinewton, up to a speed factor of 4e6 mm/min.
+    fn light(random: &mut Random) -> Self {
+        let Self { geometry, .. } = Self::any(random);
+        let size = (1e2 * geometry.diameter).powi(2);
+        let mut load = || size * 10_f64.powf(random.between(-3.0, 4.0));
+        let (radial, axial) = (load(), load());
+        let least = 1.2 * radial * geometry.contact_angle.tan();
+        let factor = 10_f64.powf(random.between(5.0, 4e6_f64.log10()));
+        Self {
+            geometry,
+            speed: factor / (1e3 * geometry.pitch_diameter) * std::f64::consts::PI / 30.0,
+            given: Axes::loaded(axial.max(least), radial),
+        }
+    }
+
     /// The equilibrium, and the largest difference between its loads and the forces of the balls, moments over the radius, over the loads and the
     /// forces of inertia.
     fn off(&self) -> Option<f64> {
@@ -121,16 +126,27 @@ impl Fast {
     }
 }
 
+#[track_caller]
+fn assert_balanced(bearings: usize, most: f64, any: fn(&mut Random) -> Fast) {
+    let mut random = Random(1);
+    for number in 0..bearings {
+        let bearing = any(&mut random);
+        match bearing.off() {
+            Some(off) => assert!(off <= most, "{number}: {off:e}"),
+            None => panic!("{number}: {:?} {:?} {}", bearing.given, bearing.geometry, bearing.speed),
+        }
+    }
+}
+
 /// Without steps of speed some are not found, and without walls that stay straight beyond a quarter turn balls on the far side of the centre of
 /// the groove are pressed to it.
 #[test]
 fn every_fast_bearing_has_an_equilibrium() {
-    let mut random = Random(1);
-    for number in 0..5000 {
-        let bearing = Fast::any(&mut random);
-        match bearing.off() {
-            Some(off) => assert!(off <= 1e-10, "{number}: {off:e}"),
-            None => panic!("{number}: {:?} {:?} {}", bearing.given, bearing.geometry, bearing.speed),
-        }
-    }
+    assert_balanced(5000, 1e-10, Fast::any);
+}
+
+/// Rounding of the places of balls is a greater share of light loads.
+#[test]
+fn every_fast_bearing_with_little_load_has_an_equilibrium() {
+    assert_balanced(2000, 1e-8, Fast::light);
 }
