@@ -224,6 +224,7 @@ fn leaves_one_check_value_to_its_author(build: &impl Build) {
 }
 
 #[test]
+#[ignore = "compiles for most of a minute; a stage of `.ci/full`"]
 fn a_new_crate_compiles_and_leaves_one_check_value_to_its_author() {
     let Some(home) = scaffold("scaffold") else { return };
     // Its manifest is read by Cargo, and names libraries that exist.
