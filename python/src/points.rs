@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use gearloss::api::{self, Field, OilTemperature, Points};
 use gearloss::framework::flow::Status;
 use gearloss::framework::thermal::Outcome;
-use gearloss::studies::analyses::common::numbers::{RPM, tidy};
+use gearloss::studies::numbers::{RPM, tidy};
 use gearloss::studies::points::{Numbered, Piece, SUMS, UnitColumn, UnitPoint, solve_pieces};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;

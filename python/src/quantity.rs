@@ -1,7 +1,7 @@
 //! Quantities with units.
 
 use gearloss::document::{Unit, parse_quantity};
-use gearloss::studies::analyses::common::numbers::tidy;
+use gearloss::studies::numbers::tidy;
 use pyo3::prelude::*;
 
 use crate::errors::wrong;

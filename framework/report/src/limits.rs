@@ -1,8 +1,8 @@
 //! Limits of a study that points or cycles do not keep, in words.
 
 use gearloss_framework::resolve::OWN_MODELS;
-use gearloss_studies::analyses::common::limits::reached::{LimitReached, Place};
 use gearloss_studies::distinct::distinct;
+use gearloss_studies::limits::reached::{LimitReached, Place};
 
 use crate::names::{listed, model, of_component};
 use crate::page::Page;

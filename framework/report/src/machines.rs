@@ -1,8 +1,8 @@
 //! Machines outside their maps and envelopes, in words.
 
-use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::common::outside_maps::MachineOutside;
 use gearloss_studies::analyses::cycle::MachineOfDuty;
+use gearloss_studies::numbers::tidy;
 
 use crate::names::model;
 use crate::text::short;

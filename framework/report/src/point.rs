@@ -17,7 +17,7 @@ use gearloss_framework::loads::SupportLoad;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::{BearingPair, PlanetShares, Port, Transmission};
 use gearloss_studies::analyses::balance::BalanceOfPoint;
-use gearloss_studies::analyses::common::numbers::RPM;
+use gearloss_studies::numbers::RPM;
 use gearloss_studies::pairs::preload_records;
 use gearloss_studies::points::{Found, PreparedPoint, STATIC_SAFETY, SUMS, SelfLocking, SolvedPoint, WeakPoint, sums};
 

@@ -1,15 +1,15 @@
 //! Numbers and tables as text.
 
-pub use gearloss_studies::analyses::common::numbers::spread_over;
 pub use gearloss_studies::analyses::map::SHOWN;
+pub use gearloss_studies::numbers::spread_over;
 
 use std::fmt::Write as _;
 
 use gearloss_framework::resolve::OWN_MODELS;
-use gearloss_studies::analyses::common::numbers::tidy;
+use gearloss_studies::numbers::tidy;
 use serde::Serialize;
 
-pub use gearloss_studies::analyses::common::numbers::{beyond, figures, fixed, significant};
+pub use gearloss_studies::numbers::{beyond, figures, fixed, significant};
 
 /// Text that grows line by line.
 #[derive(Debug, Default)]

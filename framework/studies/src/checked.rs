@@ -20,7 +20,7 @@ use gearloss_framework::resolve::{Choice, Resolved};
 use gearloss_framework::sump::LEAST_SPLASH;
 use gearloss_framework::transmission::Transmission;
 
-use crate::analyses::common::numbers::{RPM, figures, significant};
+use crate::numbers::{RPM, figures, significant};
 use crate::points::{Note, STATIC_SAFETY, WeakPoint, evidence, merge, notes};
 use crate::ratings::{RatedQuantity, rated};
 

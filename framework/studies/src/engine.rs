@@ -25,8 +25,8 @@ use progress::{Progress, Running};
 pub use stopped::Stopped;
 pub(crate) use within::JobsWithin;
 
-use crate::analyses::common::limits::limit::Limit;
-use crate::analyses::common::limits::reached::Reached;
+use crate::limits::limit::Limit;
+use crate::limits::reached::Reached;
 use crate::points::{Given, GridResult, Make, Numbered, Piece, solve_pieces, take_points};
 use crate::table::RowSink;
 use crate::tasks::{StorageError, Task, TaskResults};

@@ -27,11 +27,14 @@ pub mod checked;
 pub mod checked_study;
 pub mod needs;
 
-// What analyses share: corrections, points, varied quantities, identification, fits of columns, lists without repetition.
+// What analyses share: corrections, limits of quantities, numbers in results, points, varied quantities, identification, fits of columns, lists
+// without repetition.
 pub mod correction;
 pub mod distinct;
 pub mod fit;
 pub mod identify;
+pub mod limits;
+pub mod numbers;
 pub mod pairs;
 pub mod points;
 pub mod ratings;

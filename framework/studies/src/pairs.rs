@@ -7,7 +7,7 @@ use gearloss_framework::transmission::{BearingPair, BodyTemperature, Mounting, P
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::analyses::common::numbers::{figures, significant};
+use crate::numbers::{figures, significant};
 
 /// Opposed angular contact or tapered roller bearings that load each other.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]

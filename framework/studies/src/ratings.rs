@@ -7,7 +7,7 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::analyses::common::numbers::{beyond, figures};
+use crate::numbers::{beyond, figures};
 
 /// One rating of one component at one point.
 #[derive(Debug, Clone, Serialize, JsonSchema)]

@@ -8,8 +8,8 @@ use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::language::Language;
 use gearloss_framework::resolve::{Choice, OWN_MODELS, Resolved};
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::engine::progress::Progress;
+use gearloss_studies::numbers::RPM;
 use gearloss_studies::points::{OilTemperature, PreparedPoint};
 use serde_json::{Value, json};
 

@@ -8,7 +8,7 @@ use gearloss_report::limits;
 use gearloss_report::page::{Block, Page};
 use gearloss_report::stated_ranges::StatedRanges;
 use gearloss_report::text::with_printed_units;
-use gearloss_studies::analyses::common::limits::reached::LimitReached;
+use gearloss_studies::limits::reached::LimitReached;
 
 use crate::args::ShownArgs;
 use crate::output::Out;
@@ -180,7 +180,7 @@ fn on_one_line(head: String, sentence: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use gearloss_studies::analyses::common::limits::reached::{LimitReached, Place};
+    use gearloss_studies::limits::reached::{LimitReached, Place};
     use gearloss_studies::study::Severity;
 
     use super::{LENGTH, excess, on_one_line};

@@ -7,10 +7,10 @@ use std::path::PathBuf;
 
 use gearloss_framework::language::Language;
 use gearloss_report::html::{Report, Section};
-use gearloss_studies::analyses::common::limits::reached::LimitReached;
 use gearloss_studies::analyses::{AnalysisEntry, Engine, Outcome, Planner};
 use gearloss_studies::distinct::distinct;
 use gearloss_studies::engine::progress::{Progress, Steps};
+use gearloss_studies::limits::reached::LimitReached;
 use gearloss_studies::run::StudyRun;
 use gearloss_studies::study::{LimitEntry, Severity, Study, Write};
 use gearloss_studies::tasks::TaskResults;

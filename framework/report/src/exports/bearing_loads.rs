@@ -1,8 +1,8 @@
 //! Loads and speeds of the bearings over cycles as CSV, for programs of life and noise.
 
 use gearloss_framework::document::Diagnostic;
-use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::cycle::{BearingLoad, BearingLoads, CycleExport, CycleOutcome, LoadCase};
+use gearloss_studies::numbers::tidy;
 use gearloss_studies::table::Table;
 
 use super::rexs_loads::rexs;

@@ -8,8 +8,8 @@ use gearloss_fmu::content::Content;
 use gearloss_fmu::map::{GearOfMap, Map, OfMap, OilOfMap};
 use gearloss_fmu::table::{Axis, Table};
 use gearloss_fmu::{Experiment, Fmu, Version};
-use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, MapOf, MapOfSet, Refusal, UnitAt};
+use gearloss_studies::numbers::{RPM, tidy};
 use gearloss_studies::register_export;
 
 use super::missed;

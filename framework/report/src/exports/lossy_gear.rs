@@ -2,8 +2,8 @@
 //!
 //! Source: documentation of `Modelica.Mechanics.Rotational.Components.LossyGear`.
 
-use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, LossGrid, MapOf, Refusal};
+use gearloss_studies::numbers::{RPM, tidy};
 use gearloss_studies::points::Given;
 use gearloss_studies::register_export;
 

@@ -3,8 +3,8 @@
 //! Source: documentation of `Modelica.Blocks.Tables.CombiTable2Ds`: first line `#1`, then `double name(rows,columns)` and the rows; the
 //! first column has the first input, the first row the second one.
 
-use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::map::{ExportFile, ExportFormat, ExportMap, LossGrid, Refusal};
+use gearloss_studies::numbers::tidy;
 use gearloss_studies::register_export;
 
 use super::slabs::{GridTable, Slab, UNIT, of_all_maps};

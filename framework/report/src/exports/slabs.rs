@@ -1,7 +1,7 @@
 //! The maps of one table: the same grid at one oil temperature or several, complete at zero torque and without gaps.
 
-use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::map::{Axes, ExportMap, LossAt, LossGrid, MapOf, MapOfSet, Refusal};
+use gearloss_studies::numbers::tidy;
 
 /// What formats have in common whose file contains all maps of a [`GridTable`], those of drive units and machines too.
 macro_rules! of_all_maps {

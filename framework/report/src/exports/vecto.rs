@@ -3,8 +3,8 @@
 //! Source: VECTO's user manual, Transmission Loss Map, Electric Motor Power Map (.vemo), Drag Curve (.vemd), Max Torque (.vemp), and the generic
 //! vehicles that VECTO contains, from which the signs follow: torque and electric power are positive in drive, the drag torque is negative.
 
-use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::map::{Axes, ExportFile, ExportFormat, ExportMap, MachineAtSpeeds, MapOf, Refusal};
+use gearloss_studies::numbers::{RPM, tidy};
 use gearloss_studies::register_export;
 
 register_export!(Vecto);

@@ -5,9 +5,9 @@ use gearloss_framework::description::AssumedEntry;
 use gearloss_framework::document::visible_json;
 use gearloss_framework::gearbox::Gearbox;
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::{Built, Planner, Stopped};
 use gearloss_studies::distinct::distinct;
+use gearloss_studies::numbers::RPM;
 use serde_json::Value;
 
 use super::{GearboxPage, PageTable, point};

@@ -9,8 +9,8 @@ use gearloss_framework::mechanism::bearing::BearingPart;
 use gearloss_framework::registry::{Evidence, kind_of};
 use gearloss_framework::transmission::Transmission;
 use gearloss_studies::analyses::common::axes::{speeds, torques};
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::{Built, Planner, gear_of};
+use gearloss_studies::numbers::RPM;
 use gearloss_studies::points::{Given, OilTemperature, evidence};
 
 use super::PageTable;

@@ -7,7 +7,7 @@ use gearloss_framework::loss::{Step, Trace};
 use gearloss_framework::registry::{Entry, Instance, kind_of};
 use gearloss_framework::resolve::{Resolved, ValueSource, lookup};
 use gearloss_framework::transmission::Transmission;
-use gearloss_studies::analyses::common::numbers::RPM;
+use gearloss_studies::numbers::RPM;
 use serde_json::Value;
 
 use super::pair::explain_pair;

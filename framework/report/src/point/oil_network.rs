@@ -1,7 +1,7 @@
 //! The oil network at a point as text and as a record.
 
 use gearloss_framework::evaluate::{OilSupply, Solution, WindowFlow};
-use gearloss_studies::analyses::common::numbers::tidy;
+use gearloss_studies::numbers::tidy;
 use schemars::JsonSchema;
 use serde::Serialize;
 

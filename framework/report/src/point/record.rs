@@ -11,7 +11,7 @@ use gearloss_framework::registry::Package;
 use gearloss_framework::resolve::Resolved;
 use gearloss_framework::transmission::{CrossedStage, PartInfo, PlanetShares, Port, Stage, Transmission};
 use gearloss_studies::analyses::balance::BalanceOfPoint;
-use gearloss_studies::analyses::common::numbers::{RPM, tidy};
+use gearloss_studies::numbers::{RPM, tidy};
 use gearloss_studies::pairs::{PreloadRecord, preload_records};
 use gearloss_studies::points::{
     Derivatives, Note, PreparedPoint, SelfLocking, SolvedPoint, Sums, UnitPoint, WeakPoint, evidence, sums,

@@ -3,10 +3,10 @@
 mod summary;
 
 use gearloss_studies::analyses::common::measurable::note;
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::component_compare::{
     ComponentCompareOutcome, ComponentComparison, LossOfComponent, MeasuredLoss, ModelOfComponent,
 };
+use gearloss_studies::numbers::RPM;
 
 use crate::Figure;
 use crate::page::Page;

@@ -2,8 +2,8 @@
 
 mod summary;
 
-use gearloss_studies::analyses::common::limits::LimitRecord;
 use gearloss_studies::analyses::fluid_sweep::{FluidSweepOutcome, FluidsOfDuty, FluidsOfSet, LossOfFluid};
+use gearloss_studies::limits::LimitRecord;
 
 use crate::Figure;
 use crate::page::Page;

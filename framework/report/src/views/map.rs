@@ -5,9 +5,9 @@ mod panels;
 mod pictures;
 mod summary;
 
-use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::cycle::Criterion;
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownGrid, ShownPoint};
+use gearloss_studies::numbers::{RPM, tidy};
 use gearloss_studies::points::OilTemperature;
 
 use crate::exports;

@@ -3,8 +3,8 @@
 mod summary;
 
 use gearloss_studies::analyses::common::measurable::{is_measurable, note};
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome, PointsOfSet};
+use gearloss_studies::numbers::RPM;
 
 use crate::Figure;
 use crate::page::Page;

@@ -3,8 +3,8 @@
 mod cycles;
 mod summary;
 
-use gearloss_studies::analyses::common::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
+use gearloss_studies::numbers::word;
 
 use crate::figure::Best;
 use crate::limits::{after, bounds, in_unit};

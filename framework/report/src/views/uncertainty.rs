@@ -2,8 +2,8 @@
 
 mod summary;
 
-use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{BandsOfSet, PointOfBand, QuantityBand, UncertaintyOutcome};
+use gearloss_studies::numbers::tidy;
 
 use crate::figure::jumps;
 use crate::page::Page;

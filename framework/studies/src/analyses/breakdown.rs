@@ -7,9 +7,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::common::axes::{axis, speeds, torques};
-use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Built, Chosen, Engine, Planner, Stopped};
 use crate::measured::{Measured, Seen};
+use crate::numbers::{RPM, tidy};
 use crate::points::{Given, PointResult};
 use crate::register_analysis;
 use crate::study::{By, Data, PowerAxis, Quantity, SpeedAxis, TorqueAxis, Uses};

@@ -16,8 +16,8 @@ use serde_json::Value;
 
 use super::common::axes::{speeds, torques};
 use super::common::measurable::is_measurable;
-use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work, gear_of};
+use crate::numbers::{RPM, tidy};
 use crate::points::{Note, Points, notes};
 use crate::register_analysis;
 use crate::study::{Data, SpeedAxis, TorqueAxis, Uses};

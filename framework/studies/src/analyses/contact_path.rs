@@ -23,8 +23,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Run, Runs, Stopped};
+use crate::numbers::{RPM, tidy};
 use crate::points::{Given, Note};
 use crate::register_analysis;
 use crate::study::Uses;

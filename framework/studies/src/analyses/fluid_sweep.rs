@@ -12,12 +12,12 @@ use serde_json::Value;
 
 use self::swept::Swept;
 use super::common::duties::{DrivePlan, Duties, MeanLoss, Unfinished, sums_energies};
-use super::common::limits::over_cycles::{built, limits_of, note_proposed, values, violation};
-use super::common::limits::{Limit, LimitRecord};
 use super::common::shares::together;
 use super::common::trial::{Left, Trial};
 use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Stopped, Work};
+use crate::analyses::common::limits_over_cycles::{built, limits_of, note_proposed, values, violation};
 use crate::duty::Consumption;
+use crate::limits::{Limit, LimitRecord};
 use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{By, DriveEntry, LimitEntry, Uses, Write};

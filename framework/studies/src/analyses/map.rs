@@ -34,7 +34,6 @@ use self::plan::{Planned, on_grid};
 use self::points::{RowsOf, Taken, Taker, UndefinedLoss};
 use self::shown::Selection;
 use super::common::duties::machine_of_map;
-use super::common::limits::at_points::LimitColumn;
 use super::common::outside_maps::MachineOutside;
 use super::common::rows::RowsPlan;
 use super::common::units::libraries;
@@ -42,6 +41,7 @@ use super::{Analysis, Built, Engine, Plan, Planner, Run, Stopped, Work};
 use crate::codes;
 use crate::correction::{ReadyCorrection, UsedCorrection};
 use crate::distinct::distinct;
+use crate::limits::at_points::LimitColumn;
 use crate::measured::{Measured, Row};
 use crate::points::{
     Note, Numbered, OilTemperature, Piece, PointResult, SUMS, TotalLoss, evidence, merge, notes_with_shares,

@@ -8,12 +8,12 @@ use gearloss_framework::thermal;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::common::limits::at_points::LimitColumn;
-use super::common::numbers::{RPM, tidy};
 use super::common::rows::{RowsPlan, Solved};
 use super::common::shares::{Shares, together};
 use super::{Analysis, Built, Chosen, Engine, Head, Outcome, Planner, Stopped};
+use crate::limits::at_points::LimitColumn;
 use crate::measured::{ListedPoint, Measured, Row};
+use crate::numbers::{RPM, tidy};
 use crate::points::{Note, PointResult, UnitPoint};
 use crate::register_analysis;
 use crate::study::{By, Data, Uses, Write};

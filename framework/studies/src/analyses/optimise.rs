@@ -26,11 +26,11 @@ use self::search::Search;
 use self::variables::Variable;
 use super::common::duties::{DrivePlan, Duties};
 use super::common::inputs::Input;
-use super::common::limits::Limit;
-use super::common::limits::over_cycles::limits_of;
 use super::common::model_error::ModelErrorEntry;
 use super::common::trial::Trial;
 use super::{Analysis, Built, Engine, Plan, Planner, Stopped, Work};
+use crate::analyses::common::limits_over_cycles::limits_of;
+use crate::limits::Limit;
 use crate::register_analysis;
 use crate::study::{DriveEntry, LimitEntry, Then, ToleranceEntry, Uses, Write};
 

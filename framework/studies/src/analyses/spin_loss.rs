@@ -7,8 +7,8 @@ use serde::Deserialize;
 
 use super::breakdown::{Along, As, BarsPlan, BreakdownOutcome, Common, RowOfBars};
 use super::common::axes::speeds;
-use super::common::numbers::RPM;
 use super::{Analysis, Built, Engine, Planner, Stopped};
+use crate::numbers::RPM;
 use crate::points::Points;
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, Uses};

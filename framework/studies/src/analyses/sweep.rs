@@ -14,13 +14,13 @@ use serde_json::Value;
 use super::common::axes::{speeds, torques};
 use super::common::duties::{DrivePlan, Duties, sums_energies};
 use super::common::gears::stated_gear;
-use super::common::limits::Limit;
-use super::common::limits::at_points::LimitColumn;
-use super::common::limits::over_cycles::limits_of;
-use super::common::numbers::{RPM, tidy};
 use super::common::ranges::published;
 use super::common::shares::{Shares, together};
 use super::{Analysis, Built, Engine, Plan, Planner, Run, Runs, Stopped, Work, gear_of};
+use crate::analyses::common::limits_over_cycles::limits_of;
+use crate::limits::Limit;
+use crate::limits::at_points::LimitColumn;
+use crate::numbers::{RPM, tidy};
 use crate::points::{GridResult, Points, TotalLoss, notes_with_shares};
 use crate::register_analysis;
 use crate::study::{By, CycleGear, RideEntry, SpeedAxis, Together, TorqueAxis, Uses, Write};
@@ -375,7 +375,7 @@ fn words_of((first, i): (&Together, usize), second: Option<(&Together, usize)>) 
         format!(
             "{} {}",
             together.words(),
-            super::common::numbers::word(&value_of(together, choice))
+            crate::numbers::word(&value_of(together, choice))
         )
     };
     std::iter::once((first, i))

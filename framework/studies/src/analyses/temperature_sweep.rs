@@ -5,8 +5,8 @@ use serde::Deserialize;
 
 use super::breakdown::{Along, As, BarsPlan, BreakdownOutcome, Common, RowOfBars};
 use super::common::axes::{axis, speeds, torques};
-use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Chosen, Engine, Planner, Stopped};
+use crate::numbers::{RPM, tidy};
 use crate::points::Given;
 use crate::register_analysis;
 use crate::study::{By, SpeedAxis, TemperatureAxis, TorqueAxis, Uses};

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::balance::needs_balance;
 use super::common::axes::{speeds, torques};
-use super::common::numbers::{RPM, tidy};
 use super::{Analysis, Chosen, Engine, Head, Outcome, Plan, Planner, Run, Stopped, Work};
+use crate::numbers::{RPM, tidy};
 use crate::points::{Given, Note, UnitPoint, notes, unit_of};
 use crate::register_analysis;
 use crate::study::{SpeedAxis, TorqueAxis, Uses, Write};

@@ -262,7 +262,7 @@ impl Analysis for UncertaintyEntry {
                 inputs: samples.ranked(inputs),
                 points: samples.points(&nominal.points),
                 torques_nm: torques.to_vec(),
-                speeds_rpm: speeds.iter().map(|speed| speed * super::common::numbers::RPM).collect(),
+                speeds_rpm: speeds.iter().map(|speed| speed * crate::numbers::RPM).collect(),
                 first_failure: samples.failed.into_iter().next(),
                 published: published(inputs.iter().map(|input| &input.range.varied)),
             })

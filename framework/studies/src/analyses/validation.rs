@@ -20,7 +20,6 @@ pub use self::cell::{Cell, Ratio};
 use self::candidate::{Candidate, PointOfCandidate};
 use self::film::Film;
 use super::common::inputs::Input;
-use super::common::numbers::{RPM, tidy};
 use super::tournament::CandidatesEntry;
 use super::tournament::entrants::Entrants;
 use super::tournament::slot::Slot;
@@ -28,6 +27,7 @@ use super::{Analysis, Built, Engine, Head, Outcome, Plan, Planner, Stopped, Work
 use crate::codes;
 use crate::distinct::distinct;
 use crate::measured::{Measured, Row, Seen};
+use crate::numbers::{RPM, tidy};
 use crate::points::Note;
 use crate::register_analysis;
 use crate::study::{Data, NameOr, ParameterKey, ToleranceEntry, Uses, Write};

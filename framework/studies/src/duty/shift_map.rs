@@ -71,7 +71,7 @@ impl ShiftMap {
             let (speed, torque) = (speeds[place / torques.len()], torques[place % torques.len()]);
             let message = format!(
                 "there is no gear at {} rpm and {torque} Nm, but at other torques of this speed",
-                crate::analyses::common::numbers::tidy(speed * crate::analyses::common::numbers::RPM)
+                crate::numbers::tidy(speed * crate::numbers::RPM)
             );
             return Err(vec![fault(message, "write a gear for the same torques at each speed")]);
         }

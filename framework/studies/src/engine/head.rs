@@ -14,9 +14,9 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::{Built, Planner};
-use crate::analyses::common::limits::reached::LimitReached;
 use crate::analyses::common::model_error::ModelErrorOfSet;
 use crate::correction::UsedCorrection;
+use crate::limits::reached::LimitReached;
 use crate::study::Study;
 
 /// The head of every result.

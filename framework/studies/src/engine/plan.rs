@@ -7,7 +7,7 @@ use gearloss_framework::document::Diagnostic;
 use gearloss_framework::gearbox::Findings;
 
 use super::{Built, Planner, Stopped};
-use crate::analyses::common::limits::at_points::Watch;
+use crate::limits::at_points::Watch;
 use crate::points::{Field, Given, Points};
 
 /// The plan of an analysis: everything that its entry asks for, read, built and found right. `check` plans; `run` plans and reduces.

@@ -12,13 +12,13 @@ use serde_json::Value;
 use super::head::{Head, InputFile};
 use super::stopped::Stopped;
 use crate::analyses::AnalysisEntry;
-use crate::analyses::common::limits::Scope;
-use crate::analyses::common::limits::at_points::Watch;
 use crate::analyses::common::machine_demand::MachineDemand;
 use crate::analyses::common::model_error::{ModelError, ModelErrorOfSet, weigh};
 use crate::analyses::identify::IdentifyEntry;
 use crate::codes;
 use crate::correction::{CorrectionFrom, ReadyCorrection, UsedCorrection};
+use crate::limits::Scope;
+use crate::limits::at_points::Watch;
 use crate::points::{Field, Given, OilTemperature, Points};
 use crate::study::{Grid, Study, Write};
 

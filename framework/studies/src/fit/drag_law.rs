@@ -5,7 +5,7 @@ use gearloss_framework::document::{Diagnostic, Unit};
 use gearloss_framework::table::{Reading, Table, columns};
 use gearloss_numerics::fit::{PowerFit, power_law};
 
-use crate::analyses::common::numbers::significant;
+use crate::numbers::significant;
 
 /// Axes of the power law with their units and the parameters for reference, exponent and range.
 const AXES: [(&str, &str, [&str; 3]); 3] = [

@@ -1,7 +1,7 @@
 //! The largest loss and its greatest share, in one sentence.
 
 use gearloss_studies::analyses::breakdown::{As, BreakdownOfSet, BreakdownOutcome};
-use gearloss_studies::analyses::common::numbers::tidy;
+use gearloss_studies::numbers::tidy;
 
 use crate::names::{SetNames, share};
 use crate::page::Page;

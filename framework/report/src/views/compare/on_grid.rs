@@ -1,7 +1,7 @@
 //! Differences over a grid: a table, a verdict and a map for each set; one histogram and parity plot for all.
 
-use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::compare::{CompareOutcome, DifferenceAt, GridComparison};
+use gearloss_studies::numbers::{RPM, tidy};
 
 use crate::deviations::{histograms, parity};
 use crate::figure::jumps;

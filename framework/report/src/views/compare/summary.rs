@@ -1,10 +1,10 @@
 //! The differences in one sentence.
 
 use gearloss_framework::resolve::OWN_MODELS;
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::compare::{
     CompareOutcome, Comparisons, CycleComparison, DataComparison, DifferenceOfShare, GridComparison, ranking,
 };
+use gearloss_studies::numbers::RPM;
 
 use crate::names::{SetNames, cycle, listed, share};
 use crate::page::Page;

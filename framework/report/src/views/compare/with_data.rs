@@ -2,8 +2,8 @@
 //! histogram.
 
 use gearloss_studies::analyses::common::measurable::note;
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::compare::{Band, CompareOutcome, DataComparison, ranking};
+use gearloss_studies::numbers::RPM;
 use gearloss_studies::points::Statistics;
 
 use crate::deviations::{Deviation, histograms, parity, picture};

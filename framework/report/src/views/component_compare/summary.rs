@@ -1,7 +1,7 @@
 //! The spread of the models in one sentence.
 
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::component_compare::ComponentCompareOutcome;
+use gearloss_studies::numbers::RPM;
 
 use crate::names::model;
 use crate::page::Page;

@@ -1,9 +1,9 @@
 //! Proposed measurements as text.
 
 use gearloss_numerics::design::Choice;
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::identify::next::Next;
 use gearloss_studies::analyses::identify::{IdentificationOfSet, RuleEntry};
+use gearloss_studies::numbers::RPM;
 
 use super::short;
 use crate::page::Page;

@@ -2,10 +2,10 @@
 //! correlations, proposed measurements.
 
 use gearloss_numerics::inference::{Accuracy, BandMean, Parameter};
-use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::identify::lines::Sheet;
 use gearloss_studies::analyses::identify::{IdentificationOfSet, IdentifyOutcome};
 use gearloss_studies::identify::{Identified, Observation};
+use gearloss_studies::numbers::{RPM, tidy};
 use gearloss_studies::study::Quantity;
 
 use super::{hold_out, means, slug, stacks, words};

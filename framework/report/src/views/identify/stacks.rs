@@ -1,7 +1,7 @@
 //! Losses by mechanism compared with the measured total, as figures.
 
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::identify::IdentificationOfSet;
+use gearloss_studies::numbers::RPM;
 
 use super::pictures::{numbered, titled};
 use crate::Figure;

@@ -1,7 +1,7 @@
 //! A table for maps over speed and the values of one bound path.
 
-use gearloss_studies::analyses::common::numbers::{RPM, word};
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, NotesOfSet, ShownPoint};
+use gearloss_studies::numbers::{RPM, word};
 use gearloss_studies::points::OilTemperature;
 
 use crate::page::Page;

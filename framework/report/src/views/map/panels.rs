@@ -1,8 +1,8 @@
 //! All maps of an analysis side by side: a row for each model set, a column for each gear, oil temperature and bound value.
 
-use gearloss_studies::analyses::common::numbers::word;
 use gearloss_studies::analyses::map::{Axes, MapOfSet, MapOutcome, ShownPoint};
 use gearloss_studies::distinct::distinct;
+use gearloss_studies::numbers::word;
 use gearloss_studies::points::SUMS;
 
 use super::pictures::{AxisNames, Quantity, quantities, speed, torque};

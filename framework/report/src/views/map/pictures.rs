@@ -1,7 +1,7 @@
 //! Figures of maps.
 
-use gearloss_studies::analyses::common::numbers::{RPM, tidy, word};
 use gearloss_studies::analyses::map::{Axes, MapOfSet, MapOutcome, Mark, ShownGrid, ShownPoint};
+use gearloss_studies::numbers::{RPM, tidy, word};
 use gearloss_studies::points::OilTemperature;
 
 use super::panels::panels;

@@ -1,7 +1,7 @@
 //! The range of efficiency and loss over all maps, in one sentence.
 
-use gearloss_studies::analyses::common::numbers::RPM;
 use gearloss_studies::analyses::map::{MapOfSet, MapOutcome, ShownPoint};
+use gearloss_studies::numbers::RPM;
 
 use crate::names::{SetNames, listed};
 use crate::page::Page;

@@ -1,8 +1,8 @@
 //! Losses and temperatures of all points in one sentence.
 
 use gearloss_studies::analyses::common::measurable::is_measurable;
-use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::operating_points::{OperatingPoint, OperatingPointsOutcome};
+use gearloss_studies::numbers::tidy;
 
 use crate::names::share;
 use crate::page::Page;

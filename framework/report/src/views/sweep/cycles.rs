@@ -1,8 +1,8 @@
 //! A sweep over cycles: mean loss and consumption by value, and why they differ.
 
-use gearloss_studies::analyses::common::numbers::word;
 use gearloss_studies::analyses::sweep::{CycleOfSweep, SweepOutcome};
 use gearloss_studies::duty::Consumption;
+use gearloss_studies::numbers::word;
 
 use super::numbers;
 use crate::figure::Best;

@@ -1,7 +1,7 @@
 //! The change of the loss over the values, in one sentence.
 
-use gearloss_studies::analyses::common::numbers::word;
 use gearloss_studies::analyses::sweep::{PointOfSweep, SweepOfValue, SweepOutcome};
+use gearloss_studies::numbers::word;
 
 use crate::names::{listed, of_component, quantity};
 use crate::page::Page;

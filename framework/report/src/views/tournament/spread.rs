@@ -1,7 +1,7 @@
 //! The spread of all combinations over a grid.
 
-use gearloss_studies::analyses::common::numbers::{RPM, tidy};
 use gearloss_studies::analyses::tournament::Spread;
+use gearloss_studies::numbers::{RPM, tidy};
 
 use crate::page::Page;
 use crate::text::{TextTable, number};

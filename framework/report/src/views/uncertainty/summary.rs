@@ -1,7 +1,7 @@
 //! The width of the bands, and the input with the strongest correlation.
 
-use gearloss_studies::analyses::common::numbers::tidy;
 use gearloss_studies::analyses::uncertainty::{PointOfBand, UncertaintyOutcome};
+use gearloss_studies::numbers::tidy;
 
 use crate::names::quantity;
 use crate::page::Page;

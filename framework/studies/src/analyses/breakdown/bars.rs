@@ -5,10 +5,10 @@ use std::sync::Arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::analyses::common::numbers::{RPM, tidy};
 use crate::analyses::common::shares::{Shares, together};
 use crate::analyses::{Built, Engine, Head, Outcome, Plan, Planner, Run, Runs, Stopped, Work};
 use crate::codes;
+use crate::numbers::{RPM, tidy};
 use crate::points::{Given, GridResult, Note, PointResult, Points, TotalLoss, UnitPoint, notes_with_shares};
 use crate::study::By;
 use crate::table::Table;

@@ -5,7 +5,7 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::numbers::{RPM, tidy};
+use crate::numbers::{RPM, tidy};
 use crate::points::PointResult;
 
 /// A machine that is outside a map at some points, where the end value of the map is used.

@@ -11,8 +11,8 @@ use gearloss_framework::transmission::Transmission;
 
 use super::points::{At, Points};
 use crate::analyses::common::duties::Read;
-use crate::analyses::common::numbers::RPM;
 use crate::duty::Duty;
+use crate::numbers::RPM;
 use crate::points::{Driven, Ride};
 
 /// Classes of torque and of speed unless stated.

@@ -5,7 +5,7 @@ use gearloss_framework::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::analyses::common::numbers::{RPM, tidy};
+use crate::numbers::{RPM, tidy};
 use crate::points::{Driven, Stretch};
 
 /// A machine over a cycle.

@@ -11,9 +11,9 @@ use super::outcome::{
 use crate::analyses::Built;
 use crate::analyses::balance::reason;
 use crate::analyses::common::duties::{Read, nodes};
-use crate::analyses::common::numbers::RPM;
 use crate::analyses::common::shares::Shares;
 use crate::duty::{Duty, distance};
+use crate::numbers::RPM;
 use crate::points::{Driven, Stretch, notes_over_time};
 
 /// The results of a simulated cycle.

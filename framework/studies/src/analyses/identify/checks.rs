@@ -6,9 +6,9 @@ use gearloss_numerics::inference::{
 };
 
 use super::lines::{Sheet, of_residuals};
-use crate::analyses::common::numbers::RPM;
 use crate::identify::{Fitted, Identification, Observation};
 use crate::measured::Measured;
+use crate::numbers::RPM;
 
 /// Probability of a test below which it is reported.
 const SUSPECT: f64 = 0.01;

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::found::Found;
-use crate::analyses::common::numbers::RPM;
+use crate::numbers::RPM;
 use crate::study::FoldsEntry;
 
 /// Cross-validation errors of groups of rows.

@@ -9,11 +9,11 @@ use serde::Serialize;
 
 pub use errors::ErrorsOfQuantity;
 
-use crate::analyses::common::numbers::{RPM, tidy};
 use crate::distinct::distinct;
 use crate::identify::{
     CONFIDENCE, Calculated, Fitted, HoldOut, Identification, Pair, PredictedNumber, Predictions, Profiled,
 };
+use crate::numbers::{RPM, tidy};
 use crate::study::{Difference, Quantity};
 
 /// Held-out rows, predicted with the parameters of a set.

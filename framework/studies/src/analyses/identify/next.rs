@@ -7,9 +7,9 @@ use serde::Serialize;
 use super::entry::{NextEntry, RuleEntry};
 use super::found::Found;
 use crate::analyses::common::axes::grid_axes;
-use crate::analyses::common::numbers::{RPM, tidy};
 use crate::analyses::{Built, Planner, Stopped};
 use crate::identify::{Candidate, Fitted, Identification, NextPlan};
+use crate::numbers::{RPM, tidy};
 
 /// All points that the rig can run.
 pub(super) struct Candidates {

@@ -12,8 +12,8 @@ use super::outcome::{
 };
 use super::parameter::ParameterOfSet;
 use super::search::SearchOfSet;
-use crate::analyses::common::numbers::{RPM, tidy};
 use crate::identify::Observation;
+use crate::numbers::{RPM, tidy};
 use crate::study::Difference;
 
 /// Singular value of columns times sizes above which a combination is identifiable: a 95 % half-width below half the size.

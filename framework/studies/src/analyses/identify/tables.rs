@@ -11,7 +11,7 @@ use gearloss_numerics::inference::Reach;
 use super::found::RowOfSet;
 use super::outcome::IdentificationOfSet;
 use super::parameter::verdict_words;
-use crate::analyses::common::numbers::{RPM, tidy};
+use crate::numbers::{RPM, tidy};
 use crate::table::{Table, TableOf};
 
 /// Unit of columns whose unit is in another column of the row.

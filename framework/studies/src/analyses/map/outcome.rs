@@ -5,16 +5,16 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::super::common::numbers::word;
 use super::super::{Head, Outcome};
 use super::best::BestGears;
 use super::export::{ExportData, ExportName};
 use super::map_of::MapOf;
 use super::points::MapPoints;
 use super::shown::ShownMap;
-use crate::analyses::common::limits::at_points::LimitColumn;
 use crate::analyses::common::outside_maps::MachineOutside;
 use crate::distinct::distinct;
+use crate::limits::at_points::LimitColumn;
+use crate::numbers::word;
 use crate::points::{Note, OilTemperature, WeakPoint};
 use crate::study::Envelope;
 use crate::table::Table;

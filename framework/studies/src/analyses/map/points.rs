@@ -12,11 +12,11 @@ use serde::{Serialize, Serializer};
 use serde_json::Value;
 
 use super::super::Run;
-use super::super::common::limits::at_points::LimitColumn;
-use super::super::common::numbers::{RPM, tidy, word};
 use super::shown::{Picked, Selection};
 use crate::analyses::common::outside_maps::MachineOutside;
 use crate::correction::{Corrected, ReadyCorrection};
+use crate::limits::at_points::LimitColumn;
+use crate::numbers::{RPM, tidy, word};
 use crate::points::{Numbered, PointResult, SUMS, Sums, TotalLoss, UnitPoint};
 use crate::table::{Column, Table, Values};
 

@@ -3,9 +3,9 @@
 use gearloss_framework::flow::Status;
 use gearloss_framework::machine::MachineState;
 
-use super::super::common::numbers::spread_over;
 use super::axes::Axes;
 use super::map_of::MapOf;
+use crate::numbers::spread_over;
 use crate::points::{Field, Numbered, PointResult, UnitPoint};
 
 /// Grids with more points are shown by a selection of their rows and columns.

@@ -6,11 +6,11 @@ use serde_json::Value;
 
 use super::variables::Variable;
 use crate::analyses::common::duties::{Duties, Unfinished};
-use crate::analyses::common::limits::Limit;
-use crate::analyses::common::limits::over_cycles::{built, mean_loss, values, violation};
+use crate::analyses::common::limits_over_cycles::{built, mean_loss, values, violation};
 use crate::analyses::common::trial::{Left, Trial, left};
 use crate::analyses::{Engine, Planner, Stopped};
 use crate::duty::Consumption;
+use crate::limits::Limit;
 
 /// What is driven, and how designs are built.
 pub struct Drives<'a> {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::drives::Drive;
 use crate::analyses::common::duties::Duties;
-use crate::analyses::common::limits::over_cycles::cycle;
+use crate::analyses::common::limits_over_cycles::cycle;
 use crate::analyses::{Planner, Stopped};
 use crate::codes;
 

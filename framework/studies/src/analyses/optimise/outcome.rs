@@ -12,12 +12,12 @@ use super::changes::Change;
 use super::drives::{Drive, Drives};
 use super::objectives::{Minimised, Objective};
 use super::search::Search;
-use crate::analyses::common::limits::over_cycles::note_proposed;
-use crate::analyses::common::limits::{Limit, LimitRecord};
+use crate::analyses::common::limits_over_cycles::note_proposed;
 use crate::analyses::common::trial::Left;
 use crate::analyses::{Built, Head, Outcome, TextFile};
 use crate::distinct::distinct;
 use crate::duty::Consumption;
+use crate::limits::{Limit, LimitRecord};
 use crate::points::Note;
 use crate::table::Table;
 

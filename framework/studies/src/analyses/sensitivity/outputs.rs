@@ -4,9 +4,9 @@ use gearloss_framework::transmission::{PartInfo, Transmission};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::super::common::numbers::{RPM, tidy};
 use super::super::common::shares::{Shares, together};
 use super::super::common::trial::why;
+use crate::numbers::{RPM, tidy};
 use crate::points::PointResult;
 use crate::study::By;
 

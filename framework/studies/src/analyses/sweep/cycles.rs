@@ -4,11 +4,11 @@ use super::outcome::{CycleOfSweep, LimitOfSweep, NotesOfSet, SweepOutcome};
 use super::{Solved, SweepEntry, VariedPaths, compact, second_of, value_of};
 use crate::analyses::common::duties::DrivePlan;
 use crate::analyses::common::gears::GearOfCycles;
-use crate::analyses::common::limits::Limit;
 use crate::analyses::common::ranges::published;
 use crate::analyses::common::shares::together;
 use crate::analyses::cycle::limited_in_cycles;
 use crate::analyses::{Engine, Stopped, gear_of};
+use crate::limits::Limit;
 use crate::points::notes_over_time;
 use crate::varied::{Tie, Varied};
 

@@ -7,13 +7,13 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::analyses::common::limits::Limit;
-use crate::analyses::common::limits::at_points::LimitColumn;
-use crate::analyses::common::numbers::word;
 use crate::analyses::common::ranges::PublishedCoefficient;
 use crate::analyses::{Head, Outcome};
 use crate::distinct::distinct;
 use crate::duty::Consumption;
+use crate::limits::Limit;
+use crate::limits::at_points::LimitColumn;
+use crate::numbers::word;
 use crate::points::{Note, UnitPoint};
 use crate::table::Table;
 

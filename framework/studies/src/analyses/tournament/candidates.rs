@@ -5,13 +5,13 @@ use std::time::Instant;
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
-use super::super::common::numbers::RPM;
 use super::super::{Built, Engine, Stopped};
 use super::entrants::{Entrants, first_message};
 use super::law_loss::LossOfLaw;
 use super::marks::{Mark, marks};
 use super::model_error::Errors;
 use super::slot::{Candidate, Slot};
+use crate::numbers::RPM;
 use crate::points::{Field, GridResult, PointResult, Points, notes, run_grid};
 
 /// Relative difference of losses below which two models are equal: residual of the iterated power flow.

@@ -3,7 +3,6 @@
 use gearloss_framework::description::ThermalMode;
 use gearloss_numerics::selection::{Combination, Losses};
 
-use super::super::common::numbers::RPM;
 use super::super::{Built, Engine, Run, Stopped};
 use super::candidates::{Gathering, left};
 use super::entrants::Entrants;
@@ -12,6 +11,7 @@ use super::law_loss::LossOfLaw;
 use super::model_error::Errors;
 use super::outcome::{CandidateOfTournament, MechanismOfTournament};
 use super::slot::{Candidate, Slot};
+use crate::numbers::RPM;
 use crate::points::{Field as Given, Given as GivenPoint, PointResult, Points};
 use crate::study::Quantity;
 

@@ -3,7 +3,7 @@
 use gearloss_framework::loss::Extent;
 use gearloss_framework::transmission::Transmission;
 
-use super::super::common::numbers::{beyond, significant};
+use crate::numbers::{beyond, significant};
 use crate::points::{Note, STATIC_SAFETY, notes};
 
 /// A quantity of a model outside its stated range.

@@ -3,11 +3,11 @@
 use gearloss_numerics::inference::{PointSet, folds};
 use gearloss_numerics::selection::{LossErrors, MeasuredLosses};
 
-use super::super::common::numbers::significant;
 use super::super::{Planner, Stopped};
 use super::entry::TournamentEntry;
 use super::field::Field;
 use crate::measured::{Measured, Row, Seen};
+use crate::numbers::significant;
 use crate::points::Given;
 use crate::study::{Difference, Quantity};
 

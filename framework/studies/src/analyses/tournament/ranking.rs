@@ -3,7 +3,6 @@
 
 use gearloss_numerics::selection::{Combination, MeasuredLosses, Shortlist, Winner, rank, shortlist, winner};
 
-use super::super::common::numbers::{RPM, tidy};
 use super::super::{Engine, Run, Stopped};
 use super::candidates::left;
 use super::entrants::Entrants;
@@ -12,6 +11,7 @@ use super::field::{Field, given};
 use super::measurements::{Measurements, OwnRows};
 use super::outcome::{Comparison, RankedCombination, RankedPoint, Ranking};
 use crate::measured::Measured;
+use crate::numbers::{RPM, tidy};
 use crate::points::{Statistics, run_grid};
 
 /// A ranking with its conclusions.

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::super::common::axes::grid_axes;
-use super::super::common::numbers::{RPM, tidy};
 use super::super::{Built, Engine, Planner, Run, Stopped};
 use super::band::bands;
 use super::entrants::Entrants;
@@ -12,6 +11,7 @@ use super::field::Field;
 use super::model_error::Errors;
 use super::outcome::{ShareOfSpread, Spread, SpreadPoint};
 use super::slot::Slot;
+use crate::numbers::{RPM, tidy};
 
 impl TournamentEntry {
     /// The points of the grid.

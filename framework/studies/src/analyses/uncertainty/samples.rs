@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{PointOfBand, QuantityBand, UncertainInput};
 use crate::analyses::common::inputs::Input;
-use crate::analyses::common::numbers::{RPM, tidy};
 use crate::analyses::common::trial::{Left, Trial, left};
 use crate::analyses::{Engine, Run, Stopped};
+use crate::numbers::{RPM, tidy};
 use crate::points::{PointResult, correlation, quantile};
 
 /// Probabilities of the ends and the middle of a band.

@@ -9,8 +9,8 @@ use gearloss_framework::mechanism::planetary_drag::PlanetaryDrag;
 use gearloss_framework::table::{Reading, Table};
 
 use super::{Axis, Mean};
-use crate::analyses::common::numbers::significant;
 use crate::codes;
+use crate::numbers::significant;
 
 /// One run of the list.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,8 +8,8 @@ use gearloss_framework::transmission::{Case, Transmission};
 
 use super::ranges::{Ranges, short, temperature_axis};
 use super::sweep::{Group, Sweep, TEMPERATURES};
-use crate::analyses::common::numbers::RPM;
 use crate::analyses::{Engine, Stopped};
+use crate::numbers::RPM;
 
 /// A loss depends on the temperature of a node if that changes it by more than this share over [`PROBE`].
 const MATTERS: f64 = 2e-3;

@@ -4,7 +4,7 @@ use gearloss_fmu::network as fmu;
 use gearloss_fmu::table::Axis;
 use gearloss_framework::thermal::network::Network;
 
-use crate::analyses::common::numbers::RPM;
+use crate::numbers::RPM;
 use crate::points::Driven;
 
 /// Numbers of points over torque on each side of zero, and over speed.

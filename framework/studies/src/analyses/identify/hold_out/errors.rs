@@ -2,8 +2,8 @@
 
 use gearloss_numerics::inference::{Coverage, ErrorSummary, PlacedError, Region};
 
-use crate::analyses::common::numbers::{figures, fixed};
 use crate::identify::CONFIDENCE;
+use crate::numbers::{figures, fixed};
 use crate::study::{Difference, Quantity};
 
 /// Errors of one quantity, of fitted and held-out rows, in percentage points, W, Nm or K.

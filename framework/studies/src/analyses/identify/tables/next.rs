@@ -2,7 +2,7 @@
 
 use super::super::outcome::IdentificationOfSet;
 use super::UNIT;
-use crate::analyses::common::numbers::{RPM, tidy};
+use crate::numbers::{RPM, tidy};
 use crate::table::Table;
 
 /// All candidates of all sets, with their positions in the plan.

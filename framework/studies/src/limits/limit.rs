@@ -39,14 +39,14 @@ pub struct Limit {
     pub bounds: [Option<f64>; 2],
     /// What follows if it is not kept.
     pub severity: Severity,
-    pub(super) quantity: LimitedQuantity,
+    pub(crate) quantity: LimitedQuantity,
     /// Name of the node; index of the cycle; index of the gear.
-    pub(super) of: Owner,
+    pub(crate) of: Owner,
 }
 
 /// What a limited quantity belongs to.
 #[derive(Debug, Clone)]
-pub(super) enum Owner {
+pub(crate) enum Owner {
     Node(String),
     Oil,
     Cycle(usize),
@@ -73,7 +73,7 @@ impl Limit {
     }
 
     /// The value closest to a bound, or farthest beyond one; NaN if there is none.
-    pub(super) fn worst(&self, values: impl Iterator<Item = f64>) -> f64 {
+    pub(crate) fn worst(&self, values: impl Iterator<Item = f64>) -> f64 {
         let worst = values.min_by(|a, b| self.margin(*a).total_cmp(&self.margin(*b)));
         worst.unwrap_or(f64::NAN)
     }
@@ -86,7 +86,7 @@ impl Limit {
     }
 
     /// Symbol of the limited quantity of a rating.
-    pub(super) fn symbol(&self) -> Option<&'static str> {
+    pub(crate) fn symbol(&self) -> Option<&'static str> {
         match self.of {
             Owner::Rating { symbol, .. } => Some(symbol),
             _ => None,
@@ -94,7 +94,7 @@ impl Limit {
     }
 
     /// Whether it limits a rating of a component.
-    pub(super) fn rates(&self, name: &str, component: &str) -> bool {
+    pub(crate) fn rates(&self, name: &str, component: &str) -> bool {
         matches!(&self.of, Owner::Rating { rating, components, .. } if *rating == name && meets(components, component))
     }
 

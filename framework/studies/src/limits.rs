@@ -2,7 +2,6 @@
 
 pub mod at_points;
 pub(crate) mod limit;
-pub mod over_cycles;
 pub mod reached;
 
 use gearloss_framework::attach::dangling;

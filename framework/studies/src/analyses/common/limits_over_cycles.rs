@@ -8,14 +8,15 @@ use gearloss_framework::thermal::network::{Heats, Network};
 use gearloss_framework::transmission::Transmission;
 use serde_json::Value;
 
-use super::at_points::keep_limited;
-use super::reached::{Place, Reached};
-use super::{Limit, Owner, Scope};
-use crate::analyses::common::duties::{Duties, nodes};
-use crate::analyses::common::trial::Trial;
+use super::duties::{Duties, nodes};
+use super::trial::Trial;
 use crate::analyses::cycle::RatedOverTime;
 use crate::analyses::cycle::ratings::over_cycle;
 use crate::analyses::{Built, Engine, Planner, Stopped};
+use crate::limits::at_points::keep_limited;
+use crate::limits::limit::Owner;
+use crate::limits::reached::{Place, Reached};
+use crate::limits::{Limit, Scope};
 use crate::points::Driven;
 use crate::study::{LimitEntry, LimitedQuantity};
 

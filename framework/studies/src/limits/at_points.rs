@@ -12,7 +12,7 @@ use gearloss_framework::transmission::Transmission;
 
 use super::reached::{Place, Reached};
 use super::{Limit, Owner, Scope, words};
-use crate::analyses::common::numbers::{RPM, tidy};
+use crate::numbers::{RPM, tidy};
 use crate::points::{Numbered, PointResult, Points};
 use crate::study::{LimitEntry, LimitedQuantity, Study};
 
