@@ -315,7 +315,7 @@ impl Rating<Bearing> for Prepared {
         }
         let Some(found) = self.distribution(elements, at) else {
             at.branch(
-                "no equilibrium: the axial load is below Fr tan(a), which the radial load induces: state the thrust of the pair; or the moment is too large",
+                "no equilibrium: the axial load is below Fr tan(a), which the radial load induces: state the thrust of the pair; or the moment is too large; or balls are faster than 4e6 mm/min",
             );
             return Ok(());
         };
