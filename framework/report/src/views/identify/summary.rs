@@ -135,10 +135,10 @@ fn held_out(o: &IdentificationOfSet, page: &mut Page) -> Option<String> {
             .filter(|_| predicted.errors.quantity != Quantity::Efficiency)
             .map_or_else(String::new, |percent| format!(" or {} %", short(percent.rms)));
         page.key_figure(
-            &format!("error of the predicted {what}, {}", words_of_set(&o.model_set)),
+            &format!("{what}, held out, {}", words_of_set(&o.model_set)),
             short(errors.rms),
             unit,
-            format!("rms{percent} at {} held-out points ({})", errors.points, held.chosen_by),
+            format!("rms{percent} at {} points ({})", errors.points, held.chosen_by),
         );
         Some(format!(
             "{}{}{percent} at the held-out points ({})",
