@@ -417,7 +417,7 @@ impl Transmission {
     pub fn supports(&self) -> &[String] {
         &self.supports
     }
-    /// Numbers of the gears of every mesh, and whether it is on a rotating carrier, in the order of [`Transmission::meshes`].
+    /// Numbers of the gears of every mesh, and whether it is on a rotating carrier, in the order of the meshes.
     pub fn mesh_seats(&self) -> impl Iterator<Item = ([usize; 2], bool)> {
         self.meshes.iter().map(|m| (m.seat.gears, m.seat.carrier.is_some()))
     }
