@@ -64,7 +64,7 @@ async function paste(text) {
   }, text);
 }
 await paste(planetary.replace("bearings:", "bearigs:"));
-await until("a finding", () => document.getElementById("findings").textContent.includes("write `bearings`"));
+await until("a finding", () => document.getElementById("findings").textContent.includes("write bearings"));
 const pasted = performance.now();
 await paste(planetary);
 await until("the pasted gearbox", () => {
