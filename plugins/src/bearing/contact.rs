@@ -204,7 +204,7 @@ const AIR: f64 = 1.1;
 const ENOUGH: f64 = 1.05;
 /// Speed factor above which the inertia of balls matters, a convention. \[mm/min\]
 pub(crate) const FAST: f64 = 0.3e6;
-/// Speed factor up to which balls are balanced, a convention: aircraft engines end below it, and far beyond it inertia leaves some rings without a
+/// Speed factor up to which balls are balanced, a convention: aircraft engines end below it (recalled), and far beyond it inertia leaves some rings without a
 /// stable equilibrium. \[mm/min\]
 pub(crate) const FASTEST: f64 = 4e6;
 /// Contact angle that shoulders of grooves do not reach: they would be 0.41 D high. A convention. \[deg\]
