@@ -5,7 +5,7 @@ use std::path::Path;
 
 use gearloss_framework::document::read_yaml;
 use gearloss_framework::files::{Disk, LONGEST_TEXT, read_text};
-use gearloss_framework::gearbox::{Findings, Gearbox};
+use gearloss_framework::gearbox::{DocumentKind, Findings, Gearbox};
 use gearloss_framework::language::Language;
 use gearloss_framework::registry::Evidence;
 use gearloss_report::check::{CheckRecord, FileRecord, checked_text, resolved_text, torque_orders_text};
@@ -189,9 +189,8 @@ impl Progress for UntilInterrupted {
 fn is_study(file: &Path) -> bool {
     let text = read_text(file, LONGEST_TEXT).unwrap_or_default();
     let node = read_yaml(0, &text).node;
-    node.get("gearloss")
-        .and_then(|n| n.text())
-        .is_some_and(|kind| kind.starts_with("study"))
+    let stated = node.get("gearloss").and_then(|n| n.text());
+    DocumentKind::of(stated, |key| node.get(key).is_some()) == DocumentKind::Study
 }
 
 /// A gearbox, read with all its model sets, resolved and built.

@@ -60,9 +60,11 @@ function lazily(): void {
     { rootMargin: "600px 0px" },
   );
   for (const host of hosts) watcher.observe(host);
-  addEventListener("resize", () => {
-    for (const host of hosts) if (host.dataset.height) fit(host);
+  // The room also changes with the lines of the navigation, which are known late.
+  const room = new ResizeObserver((entries) => {
+    for (const entry of entries) fit(entry.target as HTMLElement);
   });
+  for (const host of hosts) if (host.dataset.height) room.observe(host);
 }
 
 function tables(): void {

@@ -65,12 +65,25 @@ const serious = async (page, what) => {
   for (const line of found) faults.push(`axe, ${what}: ${line}`);
 };
 
+/** The first screen ends on the screen: its first picture with legend and notes, the note of the drawing, the bar of sections. Less
+ * than the descent of a letter is not a cut. */
+const whole = async (page, size) => {
+  const cut = await page.evaluate(() => {
+    if (!document.querySelector(".first.fills")) return [];
+    const long = [...document.querySelectorAll(".first [data-picture], .first .loss-note")].filter((e) => e.scrollHeight > e.clientHeight + 4);
+    const low = [...document.querySelectorAll(".lead, nav")].filter((e) => e.getBoundingClientRect().bottom > innerHeight + 1);
+    return [...long, ...low].map((e) => `${e.className || e.tagName.toLowerCase()} (${e.scrollHeight} in ${e.clientHeight} px)`);
+  });
+  check(cut.length === 0, `at ${size} the first screen cuts ${cut.join(", ")}`);
+};
+
 // Wide screen.
 {
   const page = await open(1440, 900);
   figures.load_ms = Math.round(await page.evaluate(() => performance.getEntriesByType("navigation")[0].loadEventEnd));
   await pause(300);
   await image(page, "wide");
+  await whole(page, "1440x900");
   const first = await page.evaluate(() => {
     const seen = (selector) => {
       const e = document.querySelector(selector);
@@ -234,18 +247,12 @@ if (process.argv[3]) {
   await page.close();
 }
 
-// A low screen, as of a notebook: the first picture with its legend, the note of the drawing and the bar of sections end on it.
+// A low screen, as of a notebook.
 {
   const page = await open(1366, 768);
   await pause(800);
   await image(page, "low");
-  const cut = await page.evaluate(() => {
-    if (!document.querySelector(".first.fills")) return [];
-    const long = [...document.querySelectorAll(".first [data-picture], .first .loss-note")].filter((e) => e.scrollHeight > e.clientHeight + 12);
-    const low = [...document.querySelectorAll(".lead, nav")].filter((e) => e.getBoundingClientRect().bottom > innerHeight + 1);
-    return [...long, ...low].map((e) => e.className || e.tagName.toLowerCase());
-  });
-  check(cut.length === 0, `at 1366x768 the first screen cuts ${cut.join(", ")}`);
+  await whole(page, "1366x768");
   await page.close();
 }
 

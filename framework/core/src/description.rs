@@ -53,6 +53,7 @@ pub use states::{AssumedEntry, GearStateEntry, ImportedLoads, RatingEntry, Ratio
 #[schemars(title = "gearbox")]
 pub struct GearboxEntry {
     /// Kind and format version of the document.
+    #[schemars(extend("x-also-called" = ["schema", "format", "kind"]))]
     pub gearloss: GearboxFormat,
     /// Title for reports.
     pub title: Option<String>,

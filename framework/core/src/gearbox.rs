@@ -371,13 +371,28 @@ impl Gearbox {
     }
 }
 
-/// Kind of a document, from its first key.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Kind of a document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum DocumentKind {
     /// The description of a gearbox.
     Gearbox,
     /// Analyses of gearboxes.
     Study,
+}
+
+/// The first two keys of a study, which a gearbox does not have.
+const OF_STUDY: [&str; 2] = ["gearboxes", "analyses"];
+
+impl DocumentKind {
+    /// The kind that `gearloss:` states, otherwise that of the top-level keys.
+    pub fn of(stated: Option<&str>, has: impl Fn(&str) -> bool) -> Self {
+        let is_study = match stated {
+            Some(text) if text.starts_with("study") => true,
+            Some(text) if text.starts_with("gearbox") => false,
+            _ => OF_STUDY.iter().any(|key| has(key)),
+        };
+        if is_study { Self::Study } else { Self::Gearbox }
+    }
 }
 
 /// The finding for a document of the wrong kind.
@@ -390,7 +405,7 @@ pub fn other_kind(node: &Node, wanted: DocumentKind, name: &str) -> Option<Diagn
             "the first key marks a study, but the other keys are those of a gearbox",
             "write `gearloss: gearbox/1`".to_owned(),
         ),
-        DocumentKind::Gearbox if written.starts_with("gearbox") && has(["gearboxes", "analyses"]) => (
+        DocumentKind::Gearbox if written.starts_with("gearbox") && has(OF_STUDY) => (
             "the first key marks a gearbox, but the other keys are those of a study",
             "write `gearloss: study/1`".to_owned(),
         ),

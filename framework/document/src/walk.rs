@@ -654,8 +654,30 @@ impl<'a> Walker<'a> {
                 })
                 .collect();
             kinds.dedup();
-            self.wrong(node, &kinds.join(" or "))
+            let kinds = kinds.join(" or ");
+            match self.with_its_key(node, shapes) {
+                Some(written) => self.expected(node, &kinds, format!("write `{written}`")),
+                None => self.wrong(node, &kinds),
+            }
         }
+    }
+
+    /// A text below the key of the alternative that begins with one: a file or a name.
+    fn with_its_key(&self, node: &Node, shapes: &[Shape]) -> Option<String> {
+        let Content::Text { text, .. } = &node.content else {
+            return None;
+        };
+        let is_file = text.contains('.');
+        shapes.iter().find_map(|shape| match self.schema.follow(shape) {
+            Shape::Record(fields) => {
+                let (key, field) = fields.first()?;
+                let takes_file = field.refers_to.iter().any(|section| section == "file");
+                let is_key = matches!(self.schema.follow(&field.shape), Shape::Text(words) if words.is_empty())
+                    && takes_file == is_file;
+                is_key.then(|| format!("{{ {key}: {text} }}"))
+            }
+            _ => None,
+        })
     }
 
     fn record(&mut self, node: &Node, fields: &'a [(String, Field)], tag: Option<Tag<'_>>) -> Option<Value> {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use gearloss_document::{Unit, number_length};
+use gearloss_framework::gearbox::DocumentKind;
 use gearloss_framework::language::{LUBRICANTS, MATERIALS};
 use gearloss_framework::registry::{Files, ShippedCycle, inventory};
 use gearloss_framework::resolve::{CatalogueRow, CatalogueTable};
@@ -13,7 +14,7 @@ use serde_json::Value;
 use crate::cursor::{Cursor, Typed, cursor};
 use crate::ids::{self, CATALOGUE, CLEARANCES, COMPONENT, FILE, MECHANISM, PATH, SHIPPED_CYCLE, owners, targets};
 use crate::outline::{Content, Node};
-use crate::place::{DocumentKind, Field, Place, Step, follow};
+use crate::place::{Field, Place, Step, follow};
 use crate::text::TextRange;
 use crate::workspace::{Document, Workspace, named, section};
 

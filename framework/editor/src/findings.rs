@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use gearloss_document::{Diagnostic, Severity, Span};
-use gearloss_framework::gearbox::Findings;
+use gearloss_framework::gearbox::{DocumentKind, Findings};
 use gearloss_framework::resolve::Choice;
 use gearloss_studies::analyses::Stopped;
 use gearloss_studies::checked::CheckedGearbox;
@@ -12,7 +12,6 @@ use gearloss_studies::checked_study::CheckedStudy;
 use gearloss_studies::engine::progress::Progress;
 use serde::Serialize;
 
-use crate::place::DocumentKind;
 use crate::text::{Lines, TextRange};
 use crate::workspace::Workspace;
 
@@ -69,7 +68,9 @@ impl Workspace<'_> {
     /// The findings of `gearloss check` for a file, in its order; `None` if the caller interrupted it.
     pub fn findings(&self, path: &Path, progress: &dyn Progress) -> Option<Vec<Finding>> {
         let files = self.files();
-        let is_study = self.document(path).is_some_and(|document| is_study(&document.outline));
+        let is_study = self
+            .document(path)
+            .is_some_and(|document| document.kind == DocumentKind::Study);
         let mut found = Found::default();
         if is_study {
             let checked = CheckedStudy::read(self.language, &files, path, progress);
@@ -91,11 +92,6 @@ impl Workspace<'_> {
         }
         progress.should_continue().then_some(found.list)
     }
-}
-
-/// As `check` decides: only the first key makes a study.
-fn is_study(document: &crate::outline::Node) -> bool {
-    document.get("gearloss").is_some() && DocumentKind::of(document) == DocumentKind::Study
 }
 
 #[derive(Default)]

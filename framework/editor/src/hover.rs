@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use gearloss_framework::gearbox::DocumentKind;
 use gearloss_framework::registry::{Entry, ShippedCycle, inventory};
 use serde::Serialize;
 
 use crate::complete::{shown, summary};
 use crate::ids::{Name, SHIPPED_CYCLE, targets};
 use crate::outline::{Content, Node};
-use crate::place::{DocumentKind, Place, Step, follow};
+use crate::place::{Place, Step, follow};
 use crate::text::TextRange;
 use crate::workspace::{Document, Workspace, named, section};
 

@@ -9,10 +9,11 @@
 
 use std::ops::Range;
 
+use gearloss_framework::gearbox::DocumentKind;
 use serde_json::Value;
 
 use crate::outline::{Content, Node};
-use crate::place::{DocumentKind, Place, Step};
+use crate::place::{Place, Step};
 
 /// Pseudo sections of `x-refers-to`.
 pub const FILE: &str = "file";

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use gearloss_framework::gearbox::DocumentKind;
 use serde::Serialize;
 
 use crate::findings::FileRange;
 use crate::ids::{Name, Occurrence};
 use crate::outline::Node;
-use crate::place::DocumentKind;
 use crate::workspace::{Document, Site, Workspace, gearboxes, named, section};
 
 /// Replaced ranges of a file.

@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use gearloss_framework::gearbox::DocumentKind;
 use gearloss_framework::language::{Kind, Language};
 use serde_json::{Map, Value};
 
@@ -21,29 +22,6 @@ impl Schemas {
             DocumentKind::Gearbox => self.gearbox.get_or_init(|| language.published(Kind::Gearbox)),
             DocumentKind::Study => self.study.get_or_init(|| language.published(Kind::Study)),
         }
-    }
-}
-
-/// Kind of a document.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DocumentKind {
-    /// A gearbox.
-    Gearbox,
-    /// A study.
-    Study,
-}
-
-impl DocumentKind {
-    /// The kind that the first key states, otherwise that of the keys.
-    pub fn of(document: &Node) -> Self {
-        let stated = document.get("gearloss").and_then(Node::text);
-        let is_study = match stated {
-            Some(text) if text.starts_with("study") => true,
-            Some(text) if text.starts_with("gearbox") => false,
-            _ => document.get("analyses").is_some() || document.get("gearboxes").is_some(),
-        };
-        if is_study { Self::Study } else { Self::Gearbox }
     }
 }
 

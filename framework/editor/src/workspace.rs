@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use gearloss_document::files::{FileSource, LONGEST_TEXT, SharedSource, without_dots};
+use gearloss_framework::gearbox::DocumentKind;
 use gearloss_framework::language::Language;
 
 use crate::ids::{Name, Occurrence, occurrences};
 use crate::outline::{Node, read};
-use crate::place::{DocumentKind, Place, Schemas};
+use crate::place::{Place, Schemas};
 use crate::text::Lines;
 
 /// Maximum number of files that extend each other.
@@ -149,9 +150,10 @@ impl<'l> Workspace<'l> {
             None => self.source.read_text(&path, LONGEST_TEXT).ok()?.into(),
         };
         let outline = read(&text, None);
+        let stated = outline.get("gearloss").and_then(Node::text);
         Some(Document {
             lines: Lines::new(&text),
-            kind: DocumentKind::of(&outline),
+            kind: DocumentKind::of(stated, |key| outline.get(key).is_some()),
             path,
             text,
             outline,

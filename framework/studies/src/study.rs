@@ -58,6 +58,7 @@ use gearloss_framework::transmission::Transmission;
 #[schemars(title = "study")]
 pub struct StudyEntry {
     /// Kind and format version of the document.
+    #[schemars(extend("x-also-called" = ["schema", "format", "kind"]))]
     pub gearloss: StudyFormat,
     /// Title for reports.
     pub title: Option<String>,
