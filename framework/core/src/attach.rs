@@ -222,7 +222,7 @@ impl Level {
             let across = (1.0 - along * along).max(0.0).sqrt().max(UPRIGHT);
             [dot(place), 1.0 / across]
         };
-        [0, 1].map(|i| R::each(|point| at(point)[i]))
+        R::each_of(at)
     }
 }
 

@@ -174,6 +174,15 @@ pub trait Points: Real {
     const COUNT: usize;
     /// The numbers of all points from those of each; they have no derivatives.
     fn each(number: impl FnMut(usize) -> f64) -> Self;
+    /// Several numbers of all points from those of each.
+    #[inline(always)]
+    fn each_of<const N: usize>(mut numbers: impl FnMut(usize) -> [f64; N]) -> [Self; N] {
+        let mut all = [[0.0; N]; LANES];
+        for (point, of_point) in all.iter_mut().enumerate().take(Self::COUNT) {
+            *of_point = numbers(point);
+        }
+        std::array::from_fn(|i| Self::each(|point| all[point][i]))
+    }
     /// The conditions of all points from those of each.
     fn mask(holds: impl FnMut(usize) -> bool) -> Self::Mask;
     /// The number of one point.

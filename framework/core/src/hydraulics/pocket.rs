@@ -232,8 +232,7 @@ impl Hydraulics {
 
     /// The upward direction in the housing.
     fn up<R: Points>(&self, at: &Inputs<'_, R>) -> [R; 3] {
-        let up = |point: usize| at.incline.and_then(|incline| incline.up(point)).unwrap_or(self.up);
-        [0, 1, 2].map(|i| R::each(|point| up(point)[i]))
+        R::each_of(|point| at.incline.and_then(|incline| incline.up(point)).unwrap_or(self.up))
     }
 
     /// Flow through a chamber: into it, and into those that drain into it. \[m3/s\]

@@ -92,7 +92,7 @@ impl Window {
             let [from, to] = self.edges.map(tangent);
             [1.0, from, to]
         };
-        let [hits, from, to] = [0, 1, 2].map(|i| R::each(|point| alone(point)[i]));
+        let [hits, from, to] = R::each_of(alone);
         let wall = R::each(|point| (self.wall * speed.at_point(point).signum()).max(radius));
         let rim = speed.abs().at_least(1e-9) * radius;
         let start = (dip * (-1.0 / radius) + 1.0).lift(|x| x.clamp(-1.0, 1.0).acos());

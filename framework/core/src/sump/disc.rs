@@ -33,9 +33,10 @@ impl Disc {
             let part = self.width / (2.0 * half);
             return [part * (high[1] - low[1]), part * (high[0] - low[0]) * self.slope];
         }
-        let angle = (1.0 - depth.min(2.0 * self.radius) / self.radius).acos();
-        let (sine, cosine) = angle.sin_cos();
-        let area = self.radius * self.radius * (angle - sine * cosine);
+        let share = (depth / self.radius).min(2.0);
+        let cosine = 1.0 - share;
+        let sine = (share * (2.0 - share)).sqrt();
+        let area = self.radius * self.radius * (cosine.acos() - sine * cosine);
         let chord = if depth < 2.0 * self.radius {
             2.0 * self.radius * sine
         } else {

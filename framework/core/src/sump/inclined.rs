@@ -192,6 +192,11 @@ impl<'a> From<&'a Space> for AnySpace<'a> {
 }
 
 impl AnySpace<'_> {
+    /// True if both are one space as built.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        self.far.is_none() && other.far.is_none() && std::ptr::eq(self.near.space, other.near.space)
+    }
+
     /// Volume of oil below a level, and its derivative. \[m3 and m2\]
     #[inline]
     pub fn volume(&self, level: f64) -> [f64; 2] {
@@ -223,9 +228,13 @@ impl AnySpace<'_> {
 
     /// The level of a volume of oil; the top for more than fits. \[m\]
     pub fn level(&self, volume: f64) -> f64 {
-        match &self.far {
-            None => self.near.space.level(volume),
-            Some(_) => super::space::level(volume, [self.bottom(), self.top()], |level| self.volume(level)),
+        if self.far.is_none() {
+            return self.near.space.level(volume);
         }
+        let ends @ [bottom, top] = [self.bottom(), self.top()];
+        if volume >= self.volume(top)[0] {
+            return top;
+        }
+        super::space::level(volume, ends, 0.5 * (bottom + top), |level| self.volume(level))
     }
 }

@@ -11,7 +11,7 @@
 use super::AnySpace;
 use super::films::{drawn, film, left_on_flank};
 use crate::immersion::Height;
-use crate::real::{LANES, Points, Real};
+use crate::real::{Points, Real};
 
 /// Gravity as Shore rounds it. \[m/s2\]
 const SHORE_G: f64 = 9.8;
@@ -305,15 +305,13 @@ impl<'s, R: Points, S: Fn(usize) -> AnySpace<'s>, C: Catchers<R>> Running<'_, R,
 
     /// The level by the balance of films, with a factor c. \[m\]
     pub fn film_level(&self, capture: f64) -> R {
-        let mut found = [[0.0; 3]; LANES];
-        for point in 0..R::COUNT {
-            found[point] = if point > 0 && self.starts >> point & 1 == 0 {
-                found[point - 1]
-            } else {
-                self.root(point, capture)
-            };
-        }
-        let [level, below, slope] = [0, 1, 2].map(|i| R::each(|point| found[point][i]));
+        let mut found = [0.0; 3];
+        let [level, below, slope] = R::each_of(|point| {
+            if point == 0 || self.starts >> point & 1 != 0 {
+                found = self.root(point, capture);
+            }
+            found
+        });
         // One step of Newton's gives derivatives, where numbers have them; its length is within the bracket.
         let missing = self.outside(|x| x, level, capture).missing();
         let step = (below + missing - self.stock) / slope;

@@ -13,6 +13,8 @@ pub struct Space {
     /// Coefficients over the share of the way to the next height. \[m3\]
     cubics: Vec<[f64; 4]>,
     discs: Vec<Disc>,
+    /// Volumes below the heights, between which a level is looked for. \[m3\]
+    volumes: Vec<f64>,
 }
 
 /// The solids displace more than the outline holds: they reach out of it at this level. \[m\]
@@ -69,11 +71,14 @@ impl Space {
                 4.5 * (3.0 * (b - c) + d - a),
             ]
         });
-        Self {
+        let mut space = Self {
             cubics: cubics.collect(),
             heights,
             discs,
-        }
+            volumes: Vec::new(),
+        };
+        space.volumes = space.heights.iter().map(|height| space.volume(*height)[0]).collect();
+        space
     }
 
     /// A level at which the volume falls while the level rises, looked for in steps of a hundredth of the height.
@@ -130,16 +135,21 @@ impl Space {
 
     /// The level of a volume of oil; the top for more than fits. \[m\]
     pub fn level(&self, volume: f64) -> f64 {
-        level(volume, [self.bottom(), self.top()], |level| self.volume(level))
+        let after = self.volumes.partition_point(|below| *below < volume);
+        if after == 0 {
+            return self.bottom();
+        }
+        let (Some(above), below) = (self.volumes.get(after), self.volumes[after - 1]) else {
+            return self.top();
+        };
+        let ends @ [low, high] = [self.heights[after - 1], self.heights[after]];
+        let linear = low + (volume - below) / (above - below) * (high - low);
+        level(volume, ends, linear, |level| self.volume(level))
     }
 }
 
-/// The level of a volume between two ends, by the volume below a level and the area of its surface. \[m3, m\]
-pub(super) fn level(volume: f64, [mut low, mut high]: [f64; 2], of: impl Fn(f64) -> [f64; 2]) -> f64 {
-    if volume >= of(high)[0] {
-        return high;
-    }
-    let mut level = 0.5 * (low + high);
+/// The level of a volume between two ends, by the volume below a level and the area of its surface, from a first guess. \[m3, m\]
+pub(super) fn level(volume: f64, [mut low, mut high]: [f64; 2], mut level: f64, of: impl Fn(f64) -> [f64; 2]) -> f64 {
     for _ in 0..STEPS {
         let [below, area] = of(level);
         if below < volume {

@@ -118,15 +118,14 @@ impl Sump {
         let Some(inclined) = self.inclined_walls.as_ref().filter(|_| !inclination.is_zero().all()) else {
             return self.walls.map(R::constant);
         };
-        let at = |point: usize| match inclination.at_point(point) {
-            0.0 => self.walls,
-            inclination => inclined.at(inclination),
-        };
-        Walls {
-            area: R::each(|point| at(point).area),
-            length: R::each(|point| at(point).length),
-            flight: R::each(|point| at(point).flight),
-        }
+        let [area, length, flight] = R::each_of(|point| {
+            let walls = match inclination.at_point(point) {
+                0.0 => self.walls,
+                inclination => inclined.at(inclination),
+            };
+            [walls.area, walls.length, walls.flight]
+        });
+        Walls { area, length, flight }
     }
 
     /// True if the inside is drawn; otherwise it is the hull of the gears.
@@ -208,7 +207,7 @@ impl Sump {
             let slope = if of_found > 0.0 { area / of_found } else { 0.0 };
             [found, level, slope]
         };
-        let [found, known, slope] = [0, 1, 2].map(|i| R::each(|point| each(point)[i]));
+        let [found, known, slope] = R::each_of(each);
         let change = R::select(level.is_equal(known), R::ZERO, level - known);
         found + change * slope
     }
@@ -263,10 +262,10 @@ impl Sump {
         (catchers, starts): (C, u32),
     ) -> Running<'a, R, impl Fn(usize) -> AnySpace<'a>, C> {
         let space = move |point: usize| self.at(inclination.at_point(point));
-        let volume = |point: usize| space(point).volume(rest.at_point(point));
         let known = R::each(|point| rest.at_point(point));
+        let [filled, area] = R::each_of(|point| space(point).volume(rest.at_point(point)));
         // The volume over the level at rest, with derivatives.
-        let stock = R::each(|point| volume(point)[0]) + (rest - known) * R::each(|point| volume(point)[1]);
+        let stock = filled + (rest - known) * area;
         let none = held.is_zero();
         let left = (stock - held).at_least(0.0);
         let lowered = if none.all() {
@@ -329,9 +328,22 @@ impl<R: Points> State<'_, R> {
 
 /// The level of a volume in a space of each point. \[m3, m\]
 fn level_in<'a, R: Points>(space: impl Fn(usize) -> AnySpace<'a>, volume: R) -> R {
-    let level = R::each(|point| space(point).level(volume.at_point(point)));
-    let below = R::each(|point| space(point).volume(level.at_point(point))[0]);
-    let area = R::each(|point| space(point).volume(level.at_point(point))[1].max(0.0));
+    // Points of one temperature have one level.
+    let mut last: Option<(AnySpace<'a>, f64, [f64; 3])> = None;
+    let [level, below, area] = R::each_of(|point| {
+        let (space, volume) = (space(point), volume.at_point(point));
+        if let Some((of, same, found)) = &last
+            && *same == volume
+            && of.is(&space)
+        {
+            return *found;
+        }
+        let level = space.level(volume);
+        let [below, area] = space.volume(level);
+        let found = [level, below, area.max(0.0)];
+        last = Some((space, volume, found));
+        found
+    });
     // One step of Newton's gives derivatives, where numbers have them.
     let full = area.is_zero();
     R::select(
