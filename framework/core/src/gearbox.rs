@@ -372,7 +372,7 @@ impl Gearbox {
 }
 
 /// Kind of a document.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DocumentKind {
     /// The description of a gearbox.
     Gearbox,
