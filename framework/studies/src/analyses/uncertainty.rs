@@ -224,7 +224,10 @@ impl Analysis for UncertaintyEntry {
         for b in &built {
             let (torques, speeds) = grid_axes(cx, &self.grid, grid, &b.transmission)?;
             let points = cx.points(&b.transmission, &gear, torques, speeds);
-            let kept = points.field.len().saturating_mul(samples::BYTES);
+            let kept = points
+                .field
+                .len()
+                .saturating_mul(samples::bytes(cx.has_machines(&b.transmission)));
             cx.fit_in_memory(&format!("{path}.samples"), self.samples as usize, kept)?;
             let mut of_set = Input::all(cx, &path, &self.inputs, b)?;
             ModelErrorEntry::add(self.model_error.as_ref(), cx, b, &mut of_set)?;

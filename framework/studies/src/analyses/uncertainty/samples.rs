@@ -13,59 +13,84 @@ use crate::points::{PointResult, correlation, quantile};
 /// Probabilities of the ends and the middle of a band.
 pub const SHARES: [f64; 3] = [0.025, 0.5, 0.975];
 
-/// Memory of a point of a sample.
-pub const BYTES: usize = std::mem::size_of::<PointOfSample>();
+/// Memory of a point of a sample, with or without machines.
+pub fn bytes(has_machines: bool) -> usize {
+    std::mem::size_of::<f64>() * if has_machines { OF_UNIT } else { OF_GEARBOX }
+}
 
 /// Values of the inputs, the solved points, and the stated ranges outside which the sample lies.
-type Sample = (Vec<f64>, Vec<PointOfSample>, Left);
+type Sample = (Vec<f64>, KeptPoints, Left);
 
-/// The quantities of a solved point that are kept for all samples, so they are numbers alone: not a number where there is no value.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub struct PointOfSample {
+/// A quantity of a solved point that is kept for all samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Kept {
     /// Power out over power in. \[-\]
-    efficiency: f64,
+    Efficiency,
     /// Sum of all losses. \[W\]
-    loss: f64,
+    Loss,
     /// Loss over the speed of the reference port. \[Nm\]
-    loss_torque: f64,
+    LossTorque,
     /// Temperature of the oil. \[°C\]
-    oil: f64,
+    Oil,
     /// Power out of the DC link. \[W\]
-    dc_power: f64,
+    DcPower,
     /// Loss of the drive unit. \[W\]
-    unit_loss: f64,
+    UnitLoss,
     /// Efficiency of the drive unit. \[-\]
-    system_efficiency: f64,
+    SystemEfficiency,
 }
 
-impl From<&PointResult> for PointOfSample {
-    fn from(point: &PointResult) -> Self {
-        let number = |x: Option<f64>| x.unwrap_or(f64::NAN);
-        let unit = point.unit();
-        Self {
-            efficiency: number(point.efficiency),
-            loss: number(point.loss),
-            loss_torque: number(point.loss_torque),
-            oil: number(point.oil),
-            dc_power: number(unit.map(|unit| unit.dc_power_w)),
-            unit_loss: number(unit.map(|unit| unit.unit_loss_w)),
-            system_efficiency: number(unit.and_then(|unit| unit.system_efficiency)),
+/// Number of quantities without machines, and with them.
+const OF_GEARBOX: usize = Kept::DcPower as usize;
+const OF_UNIT: usize = Kept::SystemEfficiency as usize + 1;
+
+/// The quantities of the points of a sample, as numbers alone: not a number where there is no value.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct KeptPoints {
+    /// Number of quantities of a point.
+    width: usize,
+    /// Those of each point.
+    numbers: Vec<f64>,
+}
+
+impl KeptPoints {
+    fn of(points: &[PointResult]) -> Self {
+        let has_machines = points.iter().any(|point| point.unit().is_some());
+        let width = if has_machines { OF_UNIT } else { OF_GEARBOX };
+        let mut numbers = Vec::with_capacity(points.len() * width);
+        for point in points {
+            let unit = point.unit();
+            let all: [Option<f64>; OF_UNIT] = [
+                point.efficiency,
+                point.loss,
+                point.loss_torque,
+                point.oil,
+                unit.map(|unit| unit.dc_power_w),
+                unit.map(|unit| unit.unit_loss_w),
+                unit.and_then(|unit| unit.system_efficiency),
+            ];
+            numbers.extend(all[..width].iter().map(|x| x.unwrap_or(f64::NAN)));
         }
+        Self { width, numbers }
     }
-}
 
-/// A quantity of a kept point.
-type Read = fn(&PointOfSample) -> f64;
+    /// A quantity of a point, if it has a value.
+    fn get(&self, point: usize, quantity: Kept) -> Option<f64> {
+        let own = &self.numbers[point * self.width..][..self.width];
+        own.get(quantity as usize).copied().filter(|x| !x.is_nan())
+    }
 
-/// A kept number, if there is one.
-fn known(x: f64) -> Option<f64> {
-    (!x.is_nan()).then_some(x)
+    /// A quantity of all points that have a value.
+    fn all(&self, quantity: Kept) -> impl Iterator<Item = f64> {
+        let points = self.numbers.len() / self.width;
+        (0..points).filter_map(move |point| self.get(point, quantity))
+    }
 }
 
 /// All samples of one set.
 pub struct Samples {
     /// Values of the inputs and the solved points of each sample that could be built.
-    pub solved: Vec<(Vec<f64>, Vec<PointOfSample>)>,
+    pub solved: Vec<(Vec<f64>, KeptPoints)>,
     /// Why each of the others has no value.
     pub failed: Vec<String>,
 }
@@ -92,7 +117,7 @@ pub fn solve(
         let transmission = trial.build(changes)?;
         let solved = trial.solve(engine, &transmission, &run.points)?;
         let left = left(&transmission, &solved.seen).collect();
-        Ok((values, solved.points.iter().map(PointOfSample::from).collect(), left))
+        Ok((values, KeptPoints::of(&solved.points), left))
     };
     let all = engine.jobs(&run.built.name, count as usize, |i| Ok(sample(i)))?;
     let (mut solved, mut failed) = (Vec::new(), Vec::new());
@@ -118,24 +143,25 @@ pub fn solve(
 impl Samples {
     /// The points of the grid with their bands.
     pub fn points(&self, nominal: &[PointResult]) -> Vec<PointOfBand> {
+        let kept = KeptPoints::of(nominal);
         let point = |(i, p): (usize, &PointResult)| {
-            let nominal = PointOfSample::from(p);
-            let quantity = |read: Read| QuantityBand {
-                nominal: known(read(&nominal)),
-                band: self.band(i, read),
+            let scaled = |quantity: Kept, factor: f64| QuantityBand {
+                nominal: kept.get(i, quantity).map(|x| factor * x),
+                band: self.band(i, quantity, factor),
             };
-            let efficiency_percent = quantity(|p| 100.0 * p.efficiency);
-            let system_percent = quantity(|p| 100.0 * p.system_efficiency);
+            let own = |quantity: Kept| scaled(quantity, 1.0);
+            let efficiency_percent = scaled(Kept::Efficiency, 100.0);
+            let system_percent = scaled(Kept::SystemEfficiency, 100.0);
             PointOfBand {
                 torque_nm: p.torque,
                 speed_rpm: tidy(p.speed * RPM),
                 // Results contain efficiencies as fractions.
                 efficiency: efficiency_percent.scaled(0.01),
-                loss_w: quantity(|p| p.loss),
-                loss_torque_nm: quantity(|p| p.loss_torque),
-                oil_temperature_degc: quantity(|p| p.oil),
-                dc_power_w: quantity(|p| p.dc_power).known(),
-                unit_loss_w: quantity(|p| p.unit_loss).known(),
+                loss_w: own(Kept::Loss),
+                loss_torque_nm: own(Kept::LossTorque),
+                oil_temperature_degc: own(Kept::Oil),
+                dc_power_w: own(Kept::DcPower).known(),
+                unit_loss_w: own(Kept::UnitLoss).known(),
                 system_efficiency: system_percent.scaled(0.01).known(),
                 system_percent,
                 efficiency_percent,
@@ -144,18 +170,19 @@ impl Samples {
         nominal.iter().enumerate().map(point).collect()
     }
 
-    /// Ends and middle of the band of a quantity at a point; absent where fewer than half of the samples have a value.
-    fn band(&self, point: usize, read: Read) -> Option<[f64; 3]> {
+    /// Ends and middle of the band of a quantity, times a factor, at a point; absent where fewer than half of the samples have a value.
+    fn band(&self, point: usize, quantity: Kept, factor: f64) -> Option<[f64; 3]> {
         let all = self.solved.iter();
-        let mut values: Vec<f64> = all.filter_map(|(_, points)| known(read(&points[point]))).collect();
+        let all = all.filter_map(|(_, points)| points.get(point, quantity));
+        let mut values: Vec<f64> = all.map(|x| factor * x).collect();
         values.sort_unstable_by(f64::total_cmp);
         (2 * values.len() > self.solved.len()).then(|| SHARES.map(|share| quantile(&values, share)))
     }
 
     /// The inputs with their correlation with the mean loss over the grid, the strongest first.
     pub fn ranked(&self, inputs: &[Input]) -> Vec<UncertainInput> {
-        let mean = |points: &Vec<PointOfSample>| {
-            let losses: Vec<f64> = points.iter().filter_map(|p| known(p.loss)).collect();
+        let mean = |points: &KeptPoints| {
+            let losses: Vec<f64> = points.all(Kept::Loss).collect();
             (!losses.is_empty()).then(|| losses.iter().sum::<f64>() / losses.len() as f64)
         };
         // A sample without any loss has no mean.
