@@ -1,4 +1,4 @@
-//! Instructions of seven pieces of work, counted by callgrind: unlike times they do not depend on what else the machine does, so that a
+//! Instructions of eight pieces of work, counted by callgrind: unlike times they do not depend on what else the machine does, so that a
 //! change of one per cent is seen. They are compared with `counts.csv`; with `UPDATE=1` they are written there. They depend on the compiler and
 //! on the width of registers, which is limited to AVX2, the widest that callgrind knows.
 
@@ -50,7 +50,7 @@ fn main() -> ExitCode {
         let ratio = before.map_or(f64::NAN, |before| one as f64 / before);
         same &= (ratio - 1.0).abs() <= SHARE;
         say(&format!(
-            "{:<12} {each:>12} instructions per {}, {ratio:.4} of the committed count\n",
+            "{:<15} {each:>12} instructions per {}, {ratio:.4} of the committed count\n",
             piece.name, piece.element
         ));
     }

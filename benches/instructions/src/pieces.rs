@@ -27,7 +27,7 @@ pub struct Piece {
 }
 
 /// All pieces.
-pub const PIECES: [Piece; 7] = [
+pub const PIECES: [Piece; 8] = [
     Piece {
         name: "map",
         element: "point of the two-speed example, set joint, 16 torques of a speed together",
@@ -45,6 +45,12 @@ pub const PIECES: [Piece; 7] = [
         element: "point of the electric drive unit, 16 torques of a speed together",
         elements: 16 * FEW_SPEEDS,
         run: ehl_mixed,
+    },
+    Piece {
+        name: "ehl_mixed_loops",
+        element: "the same with the torque at the output, where each mesh is in a loop",
+        elements: 16 * FEW_SPEEDS,
+        run: ehl_mixed_loops,
     },
     Piece {
         name: "balance",
@@ -114,9 +120,9 @@ fn point<'a>(speeds: &'a [f64], torques: &'a [f64]) -> Point<'a> {
     }
 }
 
-/// Batches over torques of the input, from a speed on. \[Nm, rpm\]
-fn batches(t: &Transmission, (gear, most, from): (&str, f64, f64), speeds: u32, calls: u32) {
-    let case = t.case(gear, &[], &["input"]).unwrap();
+/// Batches over torques of a port, from a speed of the input on. \[Nm, rpm\]
+fn batches(t: &Transmission, (gear, port, most, from): (&str, &str, f64, f64), speeds: u32, calls: u32) {
+    let case = t.case(gear, &["input"], &[port]).unwrap();
     let mut scratch = t.batch_scratch(&case);
     let torques: [f64; LANES] = std::array::from_fn(|i| most * (1.0 + i as f64) / LANES as f64);
     for call in 0..calls * speeds {
@@ -127,13 +133,21 @@ fn batches(t: &Transmission, (gear, most, from): (&str, f64, f64), speeds: u32, 
 }
 
 fn map(language: &Language, calls: u32) {
-    batches(&of_set(language), ("first", 20.0, 8000.0), SPEEDS, calls);
+    batches(&of_set(language), ("first", "input", 20.0, 8000.0), SPEEDS, calls);
+}
+
+fn drive_unit(language: &Language, port: &str, most: f64, calls: u32) {
+    let t = build(language, "electric-drive-unit", &Choice::default());
+    let gear = t.states()[0].name.clone();
+    batches(&t, (&gear, port, most, 3000.0), FEW_SPEEDS, calls);
 }
 
 fn ehl_mixed(language: &Language, calls: u32) {
-    let t = build(language, "electric-drive-unit", &Choice::default());
-    let gear = t.states()[0].name.clone();
-    batches(&t, (&gear, 300.0, 3000.0), FEW_SPEEDS, calls);
+    drive_unit(language, "input", 300.0, calls);
+}
+
+fn ehl_mixed_loops(language: &Language, calls: u32) {
+    drive_unit(language, "output", -2700.0, calls);
 }
 
 fn scattered(language: &Language, calls: u32) {

@@ -355,6 +355,9 @@ impl Transmission {
         };
         models.conditions.live = work.live;
         let converged = matches!(outcome, Outcome::Converged { .. });
+        if converged && !s.ideal && !s.standing {
+            self.accept(case, s);
+        }
         self.rest(case, s, notes);
         if notes && converged {
             self.note_static_safety(&mut s.models);
@@ -364,6 +367,33 @@ impl Transmission {
         if noting == Noting::Counted && converged {
             s.count_seen();
         }
+    }
+
+    /// Brings the losses of loops to the accepted torques; the loads of their bearings are found anew.
+    fn accept<R: Answers>(&self, case: &Case, s: &mut Scratch<R>) {
+        let (work, m) = (&s.work, &mut s.models);
+        R::wide(
+            #[inline(always)]
+            || {
+                for laws in work.loops() {
+                    for &i in &laws.meshes {
+                        let loss = match i.checked_sub(self.meshes.len()) {
+                            Some(transfer) => &mut m.transfer_losses[transfer],
+                            None => &mut m.mesh_losses[i],
+                        };
+                        *loss = loss.map(|loss| loss.times(work.accepted[i]));
+                    }
+                    for &drag in &laws.drags {
+                        let i = case.flow.drags()[drag].component;
+                        let share = work.accepted[case.flow.meshes().len() + drag];
+                        m.component_losses[i] = m.component_losses[i].map(|loss| loss.times(share));
+                        if let Some(group) = self.components[i].group(&self.loads) {
+                            m.loaded[group] = 0;
+                        }
+                    }
+                }
+            },
+        );
     }
 
     /// Losses of some laws at the torques of the flow.
@@ -417,10 +447,9 @@ impl Transmission {
         if mesh.law.off() {
             return;
         }
-        m.tangential[i] = m.forces[i];
         m.conditions.live = *flow.live;
         let (state, book) = m.conditions.open(notes);
-        let answer = self.mesh(i, m.tangential[i], flow.drives[i], &state, &book, flow.live);
+        let answer = self.mesh(i, m.forces[i], flow.drives[i], &state, &book, flow.live);
         let speed = self.mesh_speed(i, state.speeds);
         flow.mesh_loss[i] = match &answer {
             Ok(loss) => {
@@ -622,17 +651,12 @@ impl Transmission {
             #[inline(always)]
             || {
                 self.forces(&s.work.multipliers, m);
-                for i in 0..m.forces.len() {
-                    if self.meshes.get(i).is_none_or(|mesh| mesh.law.off()) {
-                        m.tangential[i] = m.forces[i];
-                    }
-                }
                 for i in 0..m.friction.len() {
                     // That of the losses of the flow.
                     let mesh = &self.meshes[i];
                     if let Some(teeth) = mesh.seat.crossed().filter(|_| !mesh.law.off() && !m.ideal) {
                         let speeds = &m.conditions.speeds;
-                        m.friction[i] = self.friction_of(i, teeth, m.tangential[i], &m.mesh_losses[i], speeds);
+                        m.friction[i] = self.friction_of(i, teeth, m.forces[i], &m.mesh_losses[i], speeds);
                         m.found_friction[i].round = m.round;
                     }
                 }

@@ -214,7 +214,7 @@ impl Solution<'_> {
                 component.placed.rate(&**rating, &state, book)
             }
             Kind::Mesh(i, rating) => {
-                let mean = s.models.tangential[*i];
+                let mean = s.models.forces[*i];
                 let most = t.meshes[*i]
                     .sharing
                     .as_ref()

@@ -118,8 +118,7 @@ pub(super) struct Models<R: Points> {
     pub passed: Vec<R>,
     /// Closings of pairs with a preload, by member; empty without such pairs. \[m\]
     pub closings: Vec<R>,
-    /// Tangential force of each mesh as its law was evaluated, and at the present torques; those of chains follow. \[N\]
-    pub tangential: Vec<R>,
+    /// Tangential force of each mesh at the present torques; those of chains follow. \[N\]
     pub forces: Vec<R>,
     /// Friction force of each mesh at the present torques, with the sign of the speed of the first gear, and at others of the point; empty
     /// without meshes on axes that cross. \[N\]
@@ -131,8 +130,7 @@ pub(super) struct Models<R: Points> {
     pub ideal: bool,
     pub component_losses: Vec<Result<Loss<R>, Undefined>>,
     pub mesh_losses: Vec<Result<Loss<R>, Undefined>>,
-    /// Torque on the first side of each chain, joint and differential as its law was evaluated, and its loss. \[Nm\]
-    pub transfer_torques: Vec<R>,
+    /// That of each chain, joint and differential.
     pub transfer_losses: Vec<Result<Loss<R>, Undefined>>,
     pub drag_losses: Vec<Result<Loss<R>, Undefined>>,
     /// What each gear lifts out of the sump.
@@ -248,7 +246,6 @@ impl<R: Points> Scratch<R> {
                 } else {
                     0
                 }),
-                tangential: zeros(forces),
                 forces: zeros(forces),
                 friction: zeros(with_friction),
                 found_friction: vec![FoundFriction::NONE; with_friction],
@@ -256,7 +253,6 @@ impl<R: Points> Scratch<R> {
                 ideal: false,
                 component_losses: losses(transmission.components.len()),
                 mesh_losses: losses(meshes),
-                transfer_torques: zeros(transmission.transfers.len()),
                 transfer_losses: losses(transmission.transfers.len()),
                 drag_losses: losses(transmission.drags.len()),
                 lifted: vec![Lifted::default(); transmission.oils.sump.as_ref().map_or(0, Sump::lifts)],

@@ -409,7 +409,7 @@ impl Solution<'_> {
         let t = self.transmission;
         let models = &self.scratch.models;
         let teeth = ToothForces {
-            tangential: &models.tangential,
+            tangential: &models.forces,
             friction: &models.friction,
             turning: &models.turning,
         };
@@ -436,7 +436,7 @@ impl Solution<'_> {
 
     /// Torque of one copy of a mesh on its first gear, signed. \[Nm\]
     pub fn mesh_torque(&self, mesh: usize) -> f64 {
-        self.scratch.models.tangential[mesh] * self.transmission.meshes[mesh].seat.radius()
+        self.scratch.models.forces[mesh] * self.transmission.meshes[mesh].seat.radius()
     }
 
     /// The context of the model of a mesh of cylindrical gears, one copy, with muted notes; `None` of other gears.
@@ -446,7 +446,7 @@ impl Solution<'_> {
         let part = self.transmission.meshes[mesh].law.cylindrical()?;
         Some(self.transmission.mesh_at(
             (mesh, part),
-            s.models.tangential[mesh],
+            s.models.forces[mesh],
             s.work.drives[mesh],
             &state,
             &Notebook::CLOSED,
@@ -461,7 +461,7 @@ impl Solution<'_> {
         };
         Some(self.transmission.bevel_mesh_at(
             (mesh, part),
-            s.models.tangential[mesh],
+            s.models.forces[mesh],
             s.work.drives[mesh],
             &state,
             &Notebook::CLOSED,
@@ -485,7 +485,7 @@ impl Solution<'_> {
         };
         let flanks = self.transmission.mesh_at(
             (mesh, &part.flanks),
-            s.models.tangential[mesh],
+            s.models.forces[mesh],
             s.work.drives[mesh],
             &state,
             &Notebook::CLOSED,
@@ -501,7 +501,7 @@ impl Solution<'_> {
         };
         Some(self.transmission.worm_mesh_at(
             (mesh, part),
-            s.models.tangential[mesh],
+            s.models.forces[mesh],
             s.work.drives[mesh],
             &state,
             &Notebook::CLOSED,
@@ -513,7 +513,7 @@ impl Solution<'_> {
     pub fn tooth_force(&self, mesh: usize) -> Option<ToothForceAt> {
         let teeth = self.transmission.meshes.get(mesh)?.seat.crossed()?;
         let models = &self.scratch.models;
-        let (force, friction) = (models.tangential[mesh], models.friction[mesh]);
+        let (force, friction) = (models.forces[mesh], models.friction[mesh]);
         let flank = teeth.flanks[usize::from(force < 0.0)];
         // The teeth act against the motion of the first gear if it drives.
         let driving = usize::from((force < 0.0) == (friction < 0.0));
@@ -592,11 +592,11 @@ impl Solution<'_> {
             PartKind::Component(i) => {
                 super::loaded_loss(&t.components[i], &state, &s.models.uneven_loads, &book, &mut true)
             }
-            PartKind::Mesh(i) => t.mesh(i, s.models.tangential[i], s.work.drives[i], &state, &book, &mut true),
+            PartKind::Mesh(i) => t.mesh(i, s.models.forces[i], s.work.drives[i], &state, &book, &mut true),
             PartKind::Drag(i) => t.drag(i, &state, &book, &mut true),
             PartKind::Transfer(i) => {
                 let drives = s.work.drives[t.meshes.len() + i];
-                let at = (i, s.models.transfer_torques[i], drives);
+                let at = (i, t.transfer_torque(self.case, i, &s.work.multipliers), drives);
                 t.transfer_loss(self.case, at, &state, &book, &mut true)
             }
         };

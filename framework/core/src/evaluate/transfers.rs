@@ -37,9 +37,7 @@ impl Transmission {
             return;
         }
         let number = self.meshes.len() + index;
-        let row = &case.flow.meshes()[number];
-        let torque = flow.multipliers[row.row] * row.z1;
-        m.transfer_torques[index] = torque;
+        let torque = self.transfer_torque(case, index, flow.multipliers);
         m.conditions.live = *flow.live;
         let (state, book) = m.conditions.open(notes);
         book.clear(transfer.law.notes());
@@ -58,6 +56,13 @@ impl Transmission {
             Err(_) => R::ZERO,
         };
         m.transfer_losses[index] = answer;
+    }
+
+    /// Torque on the first side of a row. \[Nm\]
+    #[inline(always)]
+    pub(super) fn transfer_torque<R: Real>(&self, case: &Case, index: usize, multipliers: &[R]) -> R {
+        let row = &case.flow.meshes()[self.meshes.len() + index];
+        multipliers[row.row] * row.z1
     }
 
     /// The answer of the law of a row at a torque on its first side.
@@ -128,7 +133,8 @@ impl Solution<'_> {
         let (t, s, state) = (self.transmission, self.scratch, self.state());
         let transfer = &t.transfers[index];
         let drives = s.work.drives[t.meshes.len() + index];
-        let side = t.side(self.case, (index, s.models.transfer_torques[index], drives), &state);
+        let torque = t.transfer_torque(self.case, index, &s.work.multipliers);
+        let side = t.side(self.case, (index, torque, drives), &state);
         match &transfer.law {
             TransferLaw::Chain(part, _) => {
                 let oil = state.oils[transfer.oil as usize];

@@ -92,7 +92,7 @@ impl Flow {
     /// Holds the values of a loop where its laws were accepted.
     fn hold(&self, block: &Block, solved: &Work, work: &mut Work<Dual>) {
         for &unknown in &block.unknowns {
-            work.unknown[unknown].value = solved.evaluated[unknown];
+            work.unknown[unknown].value = solved.unknown[unknown];
         }
         self.write(block, work);
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::linear::{eliminate, substitute};
-use super::order::{Block, Equation, Laws, Order};
+use super::order::{Block, Equation, Feedback, Laws, Order};
 use super::system::{Flow, MeshRow};
 use super::work::{Start, Work};
 use crate::real::{Points, Real};
@@ -14,6 +14,8 @@ const STILL: f64 = 1e-12;
 const SAFETY: f64 = 0.5;
 /// Greatest exponent with which a loss is assumed to follow a torque.
 const STEEPEST: f64 = 2.0;
+/// Least curvature of a loss over a torque, as a share of the loss: two parts of a law may hide it from its secants.
+const LEAST_CURVATURE: f64 = 0.25;
 /// Share of a torque up to which a loss is assumed to follow it.
 const SMALL: f64 = 0.5;
 
@@ -71,9 +73,6 @@ impl Flow {
     /// Ends a loop: its unknowns in equilibrium also with its own losses.
     #[inline(always)]
     pub(super) fn accept<R: Points>(&self, block: &Block, work: &mut Work<R>) {
-        for &unknown in &block.unknowns {
-            work.evaluated[unknown] = work.unknown[unknown];
-        }
         self.balance_with(block, work, |equation| &equation.own_laws);
     }
 
@@ -153,9 +152,9 @@ impl Flow {
         sum.is_below(R::constant(f64::INFINITY))
     }
 
-    /// The next unknowns of a loop, with the share of a step that is taken. Points are done whose losses would change by less than a
-    /// tolerance of the power of the loop; after the first evaluation, when no secant is known, whose torques would. Returns where there are
-    /// any unknowns, and the greatest change. \[W\]
+    /// The next unknowns of a loop, with the share of a step that is taken. Points are done whose losses, followed to the next unknowns, are
+    /// uncertain by less than a tolerance of the power of the loop. Returns where there are any unknowns, and the greatest uncertainty.
+    /// \[W\]
     #[inline(always)]
     pub(super) fn approach<R: Points>(
         &self,
@@ -195,22 +194,13 @@ impl Flow {
                 work.next[*unknown] += answer * *response;
             }
         }
-        // The accepted unknowns are in equilibrium with the last losses, those of the next step with the next ones.
-        let mut change = R::ZERO;
+        let mut doubt = R::ZERO;
         for feedback in &block.feedback {
-            let (law, lead) = (feedback.law, lead_of(feedback.lead));
-            let x = work.unknown[lead];
-            let step = (work.next[lead] - x).abs();
-            let watts = if first {
-                step / x.abs() * power
-            } else {
-                step * work.slopes[law].abs() * work.weights[law]
-            };
-            change = change.max(watts);
+            doubt = doubt.max(doubt_of(feedback, lead_of(feedback.lead), (first, power), work));
         }
         let size = block.unknowns.iter().fold(R::ZERO, |sum, x| sum + work.next[*x].abs());
         let found = found & size.is_below(R::constant(f64::INFINITY));
-        work.done = work.done | found & !change.is_above(power * tolerance * SAFETY);
+        work.done = work.done | found & !doubt.is_above(power * tolerance * SAFETY);
         for &unknown in &block.unknowns {
             let x = work.unknown[unknown];
             let step = (work.next[unknown] - x) * share;
@@ -221,7 +211,7 @@ impl Flow {
             work.answers_before[feedback.law] = work.answers[feedback.law];
         }
         self.write(block, work);
-        (found, change)
+        (found, doubt)
     }
 
     /// The power that the first gear puts into a mesh.
@@ -259,15 +249,64 @@ impl Flow {
     }
 }
 
-/// Derivatives of the laws of a loop over their leading unknowns: after the first evaluation losses are proportional to these, then
-/// secants.
+/// Moves the losses of a loop along their derivatives to the next unknowns.
+#[inline(always)]
+pub(super) fn follow_to_next<R: Points>(block: &Block, work: &mut Work<R>) {
+    for feedback in &block.feedback {
+        let (law, lead) = (feedback.law, block.unknowns[block.leads[feedback.lead]]);
+        let found = work.answers[law];
+        let next = found + work.followed[law] * (work.next[lead] - work.unknown[lead]);
+        let share = R::select(found.is_zero(), R::constant(1.0), next / found);
+        work.answers[law] = found * share;
+        work.accepted[law] = share;
+        if let Some(loss) = work.mesh_loss.get_mut(law) {
+            *loss = *loss * share;
+        }
+    }
+}
+
+/// By how much a loss of a loop may differ at the next unknowns from what follows from its derivative. \[W\]
+///
+/// A loss f is about a constant and a power of the torque x with an exponent of 0 to 2. Before a secant is known, its derivative is wrong by at
+/// most f / x. The error of a secant is f'' / 2 times the distances from both of its points. Of such a loss, the curvature x^2 f'' / 2 is at most
+/// x f' / 2 and, without the constant, at most the difference of x f' from f. Other unknowns count by as much as they do not change along.
+#[inline(always)]
+fn doubt_of<R: Points>(feedback: &Feedback, lead: usize, (first, power): (bool, R), work: &Work<R>) -> R {
+    let (law, x) = (feedback.law, work.unknown[lead]);
+    let (loss, slope) = (work.answers[law].abs(), work.slopes[law]);
+    let step = work.next[lead] - x;
+    let before = x - work.before[lead];
+    // Without a step before, nothing changes along.
+    let along = R::select(before.is_zero() | R::mask(|_| first), R::ZERO, step / before);
+    let mut others = R::ZERO;
+    for &other in &feedback.others {
+        let y = work.unknown[other];
+        let apart = work.next[other] - y - along * (y - work.before[other]);
+        others += R::select(apart.is_zero(), R::ZERO, (apart / y).abs());
+    }
+    let error = if first {
+        loss
+    } else {
+        let own = (slope * x).abs();
+        let curvature = (own * 0.5).min((own - loss).abs()).max(loss * LEAST_CURVATURE);
+        let far = ((step + before) / x).abs().min(R::constant(1.0));
+        curvature * far + ((slope - work.followed[law]) * x).abs()
+    };
+    let own = error * (step / x).abs();
+    let doubt = (own + loss * others) * work.weights[law];
+    let doubt = R::select(step.is_zero() & others.is_zero(), R::ZERO, doubt);
+    // Of a torque that was zero nothing is known.
+    R::select(x.is_zero() & !step.is_zero(), power, doubt)
+}
+
+/// Derivatives of the laws of a loop over their leading unknowns: after the first evaluation those of powers of these, then secants.
 #[inline(always)]
 pub(super) fn follow<R: Points>(block: &Block, first: bool, work: &mut Work<R>) {
     for feedback in &block.feedback {
         let (law, lead) = (feedback.law, block.unknowns[block.leads[feedback.lead]]);
         let (x, y) = (work.unknown[lead], work.answers[law]);
         work.slopes[law] = if first {
-            R::select(y.is_zero() | x.is_zero(), R::ZERO, y / x)
+            R::select(y.is_zero() | x.is_zero(), R::ZERO, y / x * feedback.exponent)
         } else {
             let step = x - work.before[lead];
             let secant = (y - work.answers_before[law]) / step;

@@ -9,6 +9,11 @@ use super::structure::components;
 use super::system::{Driven, Flow, LoadedDrag};
 use super::work::{Drive, Work};
 
+/// Exponent with which losses of teeth are assumed to follow the torque: laws give 1 to 1.2, because mean friction hardly depends on the load.
+const OF_TEETH: f64 = 1.05;
+/// The same of bearings: their losses range from nearly independent of the load to proportional to it.
+const OF_BEARINGS: f64 = 0.5;
+
 /// Blocks, each after those that it depends on.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Order {
@@ -78,8 +83,12 @@ pub(super) struct Feedback {
     pub response: Vec<f64>,
     /// The unknown that it depends on most: place among the leads.
     pub lead: usize,
+    /// Other unknowns of the block that it depends on.
+    pub others: Vec<usize>,
     /// What a unit of it takes from this unknown: one for a mesh, whose lost multiplier is part of its multiplier, and half of that for a steep one.
     pub gain: f64,
+    /// Exponent with which it is assumed to follow this unknown before more is known.
+    pub exponent: f64,
 }
 
 impl Order {
@@ -178,10 +187,12 @@ impl Block {
             }
             substitute(&block.factors, &block.exchanged, &mut response);
             // A law of a loop reads at least one of its unknowns.
-            let lead = flow
-                .read_by(*law)
-                .find_map(|unknown| place(&unknown))
-                .unwrap_or_default();
+            let mut read = flow.read_by(*law).filter_map(|unknown| place(&unknown));
+            let lead = read.next().unwrap_or_default();
+            let others = read
+                .filter(|other| *other != lead)
+                .map(|other| unknowns[other])
+                .collect();
             let lead = block.leads.iter().position(|other| *other == lead).unwrap_or_else(|| {
                 block.leads.push(lead);
                 block.leads.len() - 1
@@ -194,8 +205,10 @@ impl Block {
                     Some(_) => 1.0,
                     None => response[block.leads[lead]].abs(),
                 },
+                exponent: if mesh.is_some() { OF_TEETH } else { OF_BEARINGS },
                 response,
                 lead,
+                others,
             });
         }
         Some(block)

@@ -4,7 +4,7 @@
 //! points that would decide otherwise, and those that do not converge soon, leave and are solved alone. The operations of a point
 //! are the same either way.
 
-use super::equilibrium::follow;
+use super::equilibrium::{follow, follow_to_next};
 use super::order::Block;
 use super::system::Flow;
 use super::work::{Drive, FlowState, Outcome, Start, Tolerance, Work};
@@ -32,7 +32,7 @@ impl Flow {
     }
 
     /// The power flow with losses that `losses` computes from the torques, at the speeds and given torques of the work. The torques
-    /// are in equilibrium with the losses that were computed last, so the power balance holds to rounding for any tolerance.
+    /// are in equilibrium with the accepted losses, so the power balance holds to rounding for any tolerance.
     pub fn real<R: Points>(
         &self,
         tolerance: Tolerance<R>,
@@ -193,7 +193,10 @@ impl Flow {
         }
         R::wide(
             #[inline(always)]
-            || self.accept(block, work),
+            || {
+                follow_to_next(block, work);
+                self.accept(block, work);
+            },
         );
         End::Agreed
     }

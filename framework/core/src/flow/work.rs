@@ -170,10 +170,8 @@ pub struct Work<R: Points = f64> {
     /// Given torques on all columns with the drags that are independent of torque, then zeros: for each equation.
     pub(super) applied: Vec<R>,
     pub(super) unknown: Vec<R>,
-    /// Unknowns of loops without the losses of the loop; at the last evaluation of its laws, where it has converged those of the accepted
-    /// losses; and at the one before.
+    /// Unknowns of loops without the losses of the loop; at the evaluation of its laws before the last one; and of the next step.
     pub(super) bare: Vec<R>,
-    pub(super) evaluated: Vec<R>,
     pub(super) before: Vec<R>,
     pub(super) next: Vec<R>,
     /// Of each law: lost multiplier or moment, at the last evaluation and at the one before, its derivative over the leading unknown, and
@@ -184,6 +182,8 @@ pub struct Work<R: Points = f64> {
     /// The same as far as a step follows them.
     pub(super) followed: Vec<R>,
     pub(super) weights: Vec<R>,
+    /// The accepted loss of each law over that of its last evaluation: other than one in loops.
+    pub(crate) accepted: Vec<R>,
     /// Right-hand side, matrix and unknowns of the leads of a loop.
     pub(super) right: Vec<R>,
     pub(super) factors: Vec<R>,
@@ -245,6 +245,12 @@ impl<R: Points> Work<R> {
         }
     }
 
+    /// Laws of each loop of the last solve.
+    pub(crate) fn loops(&self) -> impl Iterator<Item = &Laws> {
+        let loops = self.order.blocks.iter().filter(|block| block.is_loop());
+        loops.map(|block| &block.laws)
+    }
+
     /// Meshes whose driving gear changed in the last solve; with [`Outcome::SelfLocking`] the locking ones.
     pub fn doubtful(&self) -> impl Iterator<Item = usize> + '_ {
         self.turned
@@ -288,7 +294,6 @@ impl Flow {
             applied: zeros(size),
             unknown: zeros(size),
             bare: zeros(size),
-            evaluated: zeros(size),
             before: zeros(size),
             next: zeros(size),
             answers: zeros(laws),
@@ -296,6 +301,7 @@ impl Flow {
             slopes: zeros(laws),
             followed: zeros(laws),
             weights: zeros(laws),
+            accepted: vec![R::constant(1.0); laws],
             right: zeros(size),
             factors: Vec::new(),
             exchanged: Vec::new(),

@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 
+use super::two_speed::two_speed;
 use super::*;
 
 /// One stage of a random train.
@@ -197,6 +198,45 @@ proptest! {
             for (a, b) in quick.work.mesh_loss.iter().zip(&exact.work.mesh_loss) {
                 prop_assert!((a - b).abs() <= 1e-8 * exact.work.largest, "{a} {b} {}", exact.work.largest);
             }
+        }
+    }
+
+    /// A constant and a power of a torque, of teeth and of bearings that read the torques of both stages.
+    #[test]
+    fn accepted_losses_are_those_at_the_accepted_torques(
+        torque in prop_oneof![-100.0..-1.0_f64, 1.0..100.0_f64], speed in 10.0..800.0_f64,
+        zeta in prop::array::uniform3(1e-4..0.05_f64), drag in 1e-5..0.03_f64,
+        exponents in prop::array::uniform2(0.0..2.0_f64), constants in prop::array::uniform2(0.0..1.0_f64),
+    ) {
+        let rig = two_speed(&[3], zeta).loaded(0).loaded(2);
+        let relative = |x: f64, which: usize| {
+            let [constant, exponent] = [constants[which], exponents[which]];
+            constant + (1.0 - constant) * x.powf(exponent)
+        };
+        let law = |k: usize, driver: f64, speed: f64| zeta[k] * torque.abs() * relative(driver / torque.abs(), 0) * speed;
+        let moments = |multipliers: &[f64], speeds: &[f64]| {
+            let size = (multipliers[0].abs() + 0.3 * multipliers[1].abs()) * 19.0 / torque.abs();
+            let moment = drag * torque.abs() * relative(size, 1);
+            speeds.iter().map(|speed| -moment * speed.signum()).collect::<Vec<_>>()
+        };
+        let solved = solve_to(1e-9, &rig, &[0, 2], &[(0, speed)], &[(0, torque)], law, |state| {
+            moments(state.multipliers, state.speeds)
+        });
+        if !converged(&solved) {
+            return Ok(());
+        }
+        let work = &solved.work;
+        let limit = 1e-9 * work.largest;
+        for (k, (mesh, _)) in rig.meshes.iter().enumerate() {
+            let at = |column: Option<usize>| column.map_or(0.0, |c| solved.speeds[c]);
+            let (z, gear) = if work.drives[k] == Drive::Second { (mesh.sz2, mesh.second) } else { (mesh.z1, mesh.first) };
+            let own = law(k, (work.multipliers[mesh.row] * z).abs(), (at(gear) - at(mesh.carrier)).abs());
+            prop_assert!((own - work.mesh_loss[k]).abs() <= limit, "mesh {k}: {own} {}", work.mesh_loss[k]);
+        }
+        let torques = moments(&work.multipliers, &solved.speeds);
+        for column in &rig.loaded {
+            let apart = (torques[*column] - work.drags[*column]) * solved.speeds[*column];
+            prop_assert!(apart.abs() <= limit, "bearing at {column}: {apart}");
         }
     }
 
