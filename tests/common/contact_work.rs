@@ -42,7 +42,7 @@ pub fn work(laws: &[(EhlMixed, Path)], solution: &Solution<'_>) -> Vec<(u32, u32
             .at_operating_point(&mean, Notes::MUTED)
             .with(|to| to.bodies = at.bodies().unwrap_or(None));
         let mut mu = vec![0.0; path.len()];
-        let (tally, _) = law.settle(&along, &mut mu, None::<fn(&Place<'_>, &Settled)>);
+        let (tally, _) = law.settle(&along, &mut mu, None, None::<fn(&Place<'_>, &Settled)>);
         (tally.runs, tally.passes, path.len())
     };
     laws.iter().enumerate().map(of).collect()

@@ -886,6 +886,12 @@ impl<R: Real> Notes<'_, R> {
         self.book.cells.is_empty() && self.book.trace.is_none()
     }
 
+    /// True if the steps of the formula are shown.
+    #[inline]
+    pub fn is_traced(&self) -> bool {
+        self.book.trace.is_some()
+    }
+
     /// Notes whether a value, in the limit's unit, is in its stated range. Returns the value.
     #[inline(always)]
     pub fn check(&self, limit: &Limit, x: R) -> R {

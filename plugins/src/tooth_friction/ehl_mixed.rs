@@ -26,6 +26,7 @@ pub mod march;
 pub mod mixed;
 pub mod oil;
 pub mod place;
+pub mod seen;
 pub mod settled;
 pub mod temperature;
 pub mod traction;
@@ -40,7 +41,6 @@ use std::sync::Arc;
 use gearloss_framework::document::Diagnostic;
 use gearloss_framework::loss::{Notes, Observed, Undefined};
 use gearloss_framework::material::{Conductor, FAST};
-use gearloss_framework::mechanism::ShopUnits;
 use gearloss_framework::mechanism::gear_mesh::{GearMesh, MeshPart};
 use gearloss_framework::mechanism::tooth_friction::{Along, ContactAt, PathAt, ToothFriction, ToothFrictionModel};
 use gearloss_framework::real::{Lane, Points};
@@ -56,6 +56,7 @@ use film::{Factor, Film, InletHeating};
 use march::{March, Solved, Tally, Warming, Warmth};
 use oil::{MeshFluid, Oil, Supplied, Written};
 use place::{Bodies, Conditions, Laws, Place, Settled, first_slope};
+use seen::Seen;
 use temperature::FilmHeat;
 use traction::Transit;
 
@@ -256,13 +257,21 @@ impl EhlMixed {
 
     /// The friction along a path, with its notes.
     fn march_along<R: Points>(&self, path: &PathAt<'_, R>, mu: &mut [R]) -> Result<Along<R>, Undefined> {
-        let note = (!path.notes.is_muted()).then_some(
+        let explain = path.notes.is_traced().then_some(
             #[inline(always)]
             |place: &Place<'_, R>, settled: &Settled<R>| {
                 note(path.notes, place, settled);
             },
         );
-        let (_, first_heat) = self.settle(path, mu, note);
+        let mut seen = (!path.notes.is_muted() && !path.notes.is_traced()).then(Seen::default);
+        let (_, first_heat) = self.settle(path, mu, seen.as_mut(), explain);
+        if let Some(seen) = seen {
+            let loaded = path.notes.among(path.line_load.is_above(R::ZERO));
+            R::wide(
+                #[inline(always)]
+                || seen.note(loaded),
+            );
+        }
         let sum = mu.iter().fold(R::ZERO, |sum, mu| sum + *mu);
         // Points of a batch that have left it, or are at rest, are not asked.
         let asked = R::mask(|point| R::COUNT == 1 || path.notes.points() >> point & 1 == 1);
@@ -272,13 +281,14 @@ impl EhlMixed {
         })
     }
 
-    /// Solves a path and writes its friction; shows each loaded point at that friction in order. Returns the iteration counts and the
-    /// heat share of the first gear.
+    /// Solves a path and writes its friction, and what is seen on the way; shows each loaded point at that friction in order. Returns the iteration
+    /// counts and the heat share of the first gear.
     pub fn settle<R: Points>(
         &self,
         path: &PathAt<'_, R>,
         mu: &mut [R],
-        seen: Option<impl FnMut(&Place<'_, R>, &Settled<R>)>,
+        seen: Option<&mut Seen<R>>,
+        show: Option<impl FnMut(&Place<'_, R>, &Settled<R>)>,
     ) -> (Tally, R) {
         let oil = self.fluid.for_supply(Supplied {
             temperature: path.temperature,
@@ -297,8 +307,8 @@ impl EhlMixed {
             bodies,
             heats,
             mut tally,
-        } = march.settle(warming, mu);
-        if let Some(mut seen) = seen {
+        } = march.settle(warming, mu, seen);
+        if let Some(mut show) = show {
             R::wide(
                 #[inline(always)]
                 || {
@@ -306,7 +316,7 @@ impl EhlMixed {
                     for (node, mu) in path.nodes.iter().zip(mu) {
                         if let Some(place) = march.place(node, &conditions) {
                             tally.passes += 1;
-                            seen(&place, &place.after(*mu));
+                            show(&place, &place.after(*mu));
                         }
                     }
                 },
@@ -340,20 +350,13 @@ fn cooled(part: &MeshPart, hub: f64) -> [Body; 2] {
 #[inline(always)]
 fn note<R: Points>(notes: Notes<'_, R>, place: &Place<'_, R>, settled: &Settled<R>) -> R {
     let notes = notes.among(place.loaded());
-    notes.check(&PRESSURE, place.mean_pressure().gpa());
-    notes.check(&PECLET, place.peclet());
-    notes.observe(&T_BODY[0], settled.bodies[0]);
-    notes.observe(&T_BODY[1], settled.bodies[1]);
-    notes.observe(&THICKNESS, settled.film.um());
-    notes.observe(&LAMBDA, settled.lambda);
-    notes.check(&WARMTH, settled.temperature);
-    notes.observe(&T_FILM, settled.temperature);
-    notes.show("eta_p", "Pa s", settled.eta);
-    notes.show("S", "-", settled.s);
-    notes.show("D0", "-", settled.d0);
-    notes.observe(&MU_F, settled.mu_film);
-    notes.show("share of boundary friction", "-", settled.boundary);
-    notes.observe(&MU, settled.mu)
+    seen::note(notes, &seen::observed(place, settled), || {
+        notes.show("eta_p", "Pa s", settled.eta);
+        notes.show("S", "-", settled.s);
+        notes.show("D0", "-", settled.d0);
+        notes.show("share of boundary friction", "-", settled.boundary);
+    });
+    settled.mu
 }
 
 impl ToothFrictionModel for EhlMixed {
@@ -390,7 +393,7 @@ impl ToothFrictionModel for EhlMixed {
             contact.logarithms(),
             at.rq,
         );
-        let mu = place.settle(0.05, &mut first_slope(), &mut 0);
+        let mu = place.settle(0.05, &mut first_slope(), &mut 0).mu;
         super::finite(note(at.notes, &place, &place.after(mu)))
     }
 

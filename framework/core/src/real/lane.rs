@@ -173,13 +173,23 @@ impl Real for Lane {
     }
     #[inline(always)]
     fn extremes(self, points: u32) -> (f64, f64) {
-        let (mut least, mut greatest) = (f64::INFINITY, f64::NEG_INFINITY);
+        let (mut least, mut greatest) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
         for (point, x) in self.0.into_iter().enumerate() {
+            // What is not a number is no extreme.
             let x = if points >> point & 1 == 1 { x } else { f64::NAN };
-            least = if x < least { x } else { least };
-            greatest = if x > greatest { x } else { greatest };
+            least[point] = if x < f64::INFINITY { x } else { f64::INFINITY };
+            greatest[point] = if x > f64::NEG_INFINITY { x } else { f64::NEG_INFINITY };
         }
-        (least, greatest)
+        // Halves with each other: the comparisons of a half do not wait for each other.
+        let mut half = LANES;
+        while half > 1 {
+            half /= 2;
+            for point in 0..half {
+                least[point] = least[point].min(least[point + half]);
+                greatest[point] = greatest[point].max(greatest[point + half]);
+            }
+        }
+        (least[0], greatest[0])
     }
     #[inline(always)]
     fn constant(x: f64) -> Self {

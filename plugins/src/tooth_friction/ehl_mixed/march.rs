@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::contact::{Contact, Logarithms};
 use super::oil::Oil;
 use super::place::{Bodies, Conditions, Laws, Place, first_slope};
+use super::seen::{Seen, observed};
 use super::settled::Search;
 
 /// Heat source of the gear bodies.
@@ -204,14 +205,24 @@ impl<'a, R: Points> March<'a, R> {
     }
 
     /// One iteration along the path at given body temperatures, for the points that are not settled; `mu` is the initial guess on
-    /// entry and the friction on return.
-    fn run(&self, bodies: Bodies<R>, open: R::Mask, mu: &mut [R], tally: &mut Tally) -> Sums<R> {
+    /// entry and the friction on return. `seen` is what this iteration sees.
+    fn run(
+        &self,
+        bodies: Bodies<R>,
+        open: R::Mask,
+        mu: &mut [R],
+        tally: &mut Tally,
+        mut seen: Option<&mut Seen<R>>,
+    ) -> Sums<R> {
         let first = tally.runs == 0;
         tally.runs += 1;
         R::wide(
             #[inline(always)]
             || {
                 let mut sums = Sums::default();
+                if let Some(seen) = seen.as_deref_mut() {
+                    seen.forget(open);
+                }
                 let conditions = self.conditions(bodies);
                 let mut slope = R::constant(first_slope());
                 let mut before = R::constant(USUAL_MU);
@@ -223,9 +234,12 @@ impl<'a, R: Points> March<'a, R> {
                     let guess = if first { before } else { *mu };
                     let found = place.settle(guess, &mut slope, &mut tally.passes);
                     let loaded = place.loaded();
-                    *mu = R::select(open, R::select(loaded, found, R::ZERO), *mu);
-                    before = R::select(loaded, found, before);
-                    sums.add(node.weight, &place, found);
+                    *mu = R::select(open, R::select(loaded, found.mu, R::ZERO), *mu);
+                    before = R::select(loaded, found.mu, before);
+                    sums.add(node.weight, &place, found.mu);
+                    if let Some(seen) = seen.as_deref_mut() {
+                        seen.add(open & loaded, &observed(&place, &found.settled()));
+                    }
                 }
                 sums
             },
@@ -249,8 +263,8 @@ impl<'a, R: Points> March<'a, R> {
         )
     }
 
-    /// Solves the whole path and writes its friction.
-    pub fn settle(&self, warming: Warming<R>, mu: &mut [R]) -> Solved<R> {
+    /// Solves the whole path and writes its friction, and what is seen.
+    pub fn settle(&self, warming: Warming<R>, mu: &mut [R], seen: Option<&mut Seen<R>>) -> Solved<R> {
         let mut tally = Tally::default();
         let all = R::mask(|_| true);
         let oil = self.oil.supplied.temperature;
@@ -259,19 +273,19 @@ impl<'a, R: Points> March<'a, R> {
             Warming::By(Warmth::Oil, _) => Bodies::Held([oil; 2]),
             Warming::By(..) if !self.laws.thermal => Bodies::Held([oil; 2]),
             Warming::By(Warmth::PathMean, resistances) => {
-                let sums = self.run(Bodies::Rising(resistances), all, mu, &mut tally);
+                let sums = self.run(Bodies::Rising(resistances), all, mu, &mut tally, None);
                 let loaded = sums.weight.is_above(R::ZERO);
                 let mean = sums.bodies.map(|sum| R::select(loaded, sum / sums.weight, oil));
                 Bodies::Split(mean, resistances)
             }
-            Warming::By(Warmth::Balance, resistances) => return self.balance(resistances, mu),
+            Warming::By(Warmth::Balance, resistances) => return self.balance(resistances, mu, seen),
         };
-        let Sums { heats, .. } = self.run(bodies, all, mu, &mut tally);
+        let Sums { heats, .. } = self.run(bodies, all, mu, &mut tally, seen);
         Solved { bodies, heats, tally }
     }
 
     /// Solves for the body temperatures that balance the mean heat of the mesh.
-    fn balance(&self, resistances: [R; 2], mu: &mut [R]) -> Solved<R> {
+    fn balance(&self, resistances: [R; 2], mu: &mut [R], mut seen: Option<&mut Seen<R>>) -> Solved<R> {
         let mut tally = Tally::default();
         let mut known = self.typical(resistances);
         let rheology = self.oil.rheology;
@@ -284,7 +298,7 @@ impl<'a, R: Points> March<'a, R> {
         loop {
             let rise = known.rise(resistances, heat);
             let bodies = Bodies::Held(rise.map(|rise| self.oil.supplied.temperature + rise));
-            let found = self.run(bodies, open, mu, &mut tally);
+            let found = self.run(bodies, open, mu, &mut tally, seen.as_deref_mut());
             let settled = found.rise(resistances, found.heat);
             let off = (settled[0] - rise[0]).abs().max((settled[1] - rise[1]).abs());
             heats = [0, 1].map(|i| R::select(open, found.heats[i], heats[i]));

@@ -115,6 +115,33 @@ pub struct Settled<R = f64> {
     warming: R,
 }
 
+/// The solution of a contact, with its last evaluation.
+#[derive(Debug, Clone, Copy)]
+pub struct Found<R = f64> {
+    /// Coefficient of friction.
+    pub mu: R,
+    /// The coefficient that was evaluated last, and its result.
+    at: R,
+    last: Settled<R>,
+}
+
+impl<R: Points> Found<R> {
+    /// The last evaluation, brought to the solution. With prescribed body temperatures the film temperature is linear in the friction, and the film
+    /// does not depend on it; shear rate and viscosity stay those of the last evaluation.
+    #[inline(always)]
+    pub fn settled(&self) -> Settled<R> {
+        let Self { mu, at, last } = *self;
+        let of_film = R::constant(1.0) - last.boundary;
+        let film_step = R::select(of_film.is_zero(), R::ZERO, (mu - last.mu) / of_film);
+        Settled {
+            mu,
+            mu_film: last.mu_film + film_step,
+            temperature: last.temperature + (mu - at) * last.warming,
+            ..last
+        }
+    }
+}
+
 /// Bodies under a friction heat.
 struct Heated<R> {
     /// Their temperatures. \[degC\]
@@ -328,10 +355,10 @@ impl<'a, R: Points> Place<'a, R> {
         a.peclet(half_width, first).min(b.peclet(half_width, second))
     }
 
-    /// Solves the contact from an initial guess of its friction, and returns the friction; `slope` is the last estimate of the
-    /// derivative of the friction map. Counts iterations. A point that has converged keeps its friction while others iterate.
+    /// Solves the contact from an initial guess of its friction; `slope` is the last estimate of the derivative of the friction map. Counts
+    /// iterations. A point that has converged keeps its friction while others iterate.
     #[inline(always)]
-    pub fn settle(&self, guess: R, slope: &mut R, passes: &mut u32) -> R {
+    pub fn settle(&self, guess: R, slope: &mut R, passes: &mut u32) -> Found<R> {
         let near = |difference: R, tolerance: f64| difference.abs().is_below(R::constant(tolerance));
         let mut search = Search::new(R::constant(self.most), *slope);
         let mut mu = guess.at_least(0.0).at_most(self.most);
@@ -360,7 +387,11 @@ impl<'a, R: Points> Place<'a, R> {
             }
             if !running.any() || pass == MOST_PASSES {
                 *passes += pass;
-                return solved;
+                return Found {
+                    mu: solved,
+                    at: mu,
+                    last: found,
+                };
             }
             mu = R::select(running, next, mu);
         }

@@ -5,7 +5,7 @@ use gearloss_framework::geometry::LoadSharing;
 use gearloss_framework::lubricant::roelands::Roelands;
 use gearloss_framework::mechanism::gear_mesh::GearMeshAt;
 use gearloss_framework::mechanism::mean_friction::MeanFrictionAt;
-use gearloss_framework::mechanism::tooth_friction::{PathExtent, PathNode};
+use gearloss_framework::mechanism::tooth_friction::{PathAt, PathExtent, PathNode};
 use gearloss_framework::registry::{Files, Registry};
 use serde_json::{Value, json};
 
@@ -61,8 +61,13 @@ impl Rig {
         path.nodes().to_vec()
     }
 
-    /// Evaluates on nodes at a torque of the first gear in N m, rpm and degC.
-    fn solve(&self, nodes: &[PathNode], torque: f64, rpm: f64, oil: f64) -> Solved {
+    /// Asks for the path of nodes at a torque of the first gear in N m, rpm and degC.
+    fn on_path<T>(
+        &self,
+        nodes: &[PathNode],
+        (torque, rpm, oil): (f64, f64, f64),
+        ask: impl FnOnce(&PathAt<'_>, &MeanFrictionAt<'_>) -> T,
+    ) -> T {
         let state = self.part.oil.as_ref().unwrap().lubricant.oil_at(oil);
         let at = GearMeshAt::usual(&self.part, Notes::MUTED).with(|to| {
             to.torque = torque;
@@ -82,22 +87,41 @@ impl Rig {
             to.nodes = nodes;
             to.extent = &extent;
         });
-        let mut mu = vec![0.0; nodes.len()];
-        let mut places = Vec::new();
-        let (tally, _) = self.model.settle(
-            &path,
-            &mut mu,
-            Some(|_: &Place<'_>, settled: &Settled| places.push(*settled)),
-        );
-        let per_mu = |n: &PathNode| n.weight * n.share * n.sliding * mean.normal_force * mean.speed;
-        let loss: f64 = nodes.iter().zip(&mu).map(|(n, mu)| per_mu(n) * mu).sum();
-        Solved {
-            loss,
-            mu: loss / nodes.iter().map(per_mu).sum::<f64>(),
-            lambda: places.iter().map(|p| p.lambda).sum::<f64>() / places.len() as f64,
-            places,
-            tally,
-        }
+        ask(&path, &mean)
+    }
+
+    /// Evaluates on nodes at a torque of the first gear in N m, rpm and degC.
+    fn solve(&self, nodes: &[PathNode], torque: f64, rpm: f64, oil: f64) -> Solved {
+        self.on_path(nodes, (torque, rpm, oil), |path, mean| {
+            let mut mu = vec![0.0; nodes.len()];
+            let mut places = Vec::new();
+            let (tally, _) = self.model.settle(
+                path,
+                &mut mu,
+                None,
+                Some(|_: &Place<'_>, settled: &Settled| places.push(*settled)),
+            );
+            let per_mu = |n: &PathNode| n.weight * n.share * n.sliding * mean.normal_force * mean.speed;
+            let loss: f64 = nodes.iter().zip(&mu).map(|(n, mu)| per_mu(n) * mu).sum();
+            Solved {
+                loss,
+                mu: loss / nodes.iter().map(per_mu).sum::<f64>(),
+                lambda: places.iter().map(|p| p.lambda).sum::<f64>() / places.len() as f64,
+                places,
+                tally,
+            }
+        })
+    }
+
+    /// What the notes see of the same path.
+    fn seen(&self, nodes: &[PathNode], torque: f64, rpm: f64, oil: f64) -> Seen<f64> {
+        self.on_path(nodes, (torque, rpm, oil), |path, _| {
+            let mut seen = Seen::default();
+            let mut mu = vec![0.0; nodes.len()];
+            self.model
+                .settle(path, &mut mu, Some(&mut seen), None::<fn(&Place<'_>, &Settled)>);
+            seen
+        })
     }
 
     /// The loss at a power in kW, rpm of the first gear and degC. \[W\]
@@ -304,6 +328,48 @@ fn friction_follows_the_stribeck_curve() {
 fn loss_of_neighbour(rig: &Rig) -> f64 {
     rig.solve(&rig.gauss(), torque(30.0, 2000.0) * (1.0 + 1e-6), 2000.0, 60.0)
         .loss
+}
+
+/// What is noted while the path is solved, and what its places have at the friction that was found: within the tolerance of the film temperature,
+/// and the friction within what that changes.
+#[test]
+fn ranges_over_a_path_are_those_of_its_places() {
+    for (bodies, power, rpm, oil) in [
+        ("balance", 30.0, 2000.0, 60.0),
+        ("path_mean", 30.0, 2000.0, 60.0),
+        ("oil", 5.0, 500.0, 90.0),
+        ("path_mean", 2.0, 12_000.0, 20.0),
+    ] {
+        let rig = Rig::new(1, &json!({ "bodies": bodies }));
+        let nodes = rig.gauss();
+        let torque = torque(power, rpm);
+        let (seen, places) = (
+            rig.seen(&nodes, torque, rpm, oil),
+            rig.solve(&nodes, torque, rpm, oil).places,
+        );
+        let quantities: [(usize, fn(&Settled) -> f64, f64); 7] = [
+            (2, |p| p.bodies[0], 1e-12),
+            (3, |p| p.bodies[1], 1e-12),
+            (4, |p| p.film * 1e6, 1e-12),
+            (5, |p| p.lambda, 1e-12),
+            (6, |p| p.temperature, 1e-12),
+            (7, |p| p.mu_film, 2e-4),
+            (8, |p| p.mu, 2e-4),
+        ];
+        for (number, quantity, tolerance) in quantities {
+            let values = places.iter().map(quantity);
+            within(
+                seen.least[number],
+                values.clone().fold(f64::INFINITY, f64::min),
+                tolerance,
+            );
+            within(
+                seen.greatest[number],
+                values.fold(f64::NEG_INFINITY, f64::max),
+                tolerance,
+            );
+        }
+    }
 }
 
 #[test]
