@@ -79,8 +79,8 @@ fn line_or_unknown(line: Option<&str>) -> String {
 /// Points of the path of each mesh: seven on each of its four smooth sections.
 const NODES: f64 = 28.0;
 /// Exponentials and logarithms of a point of the two-speed example in first gear under the set `joint`, counted from the formulas: 3 meshes,
-/// each evaluated once, with two exponentials at each point of the path and one logarithm; 10 evaluations of bearings, the four of
-/// the shafts behind which torque is known twice, with 2 exponentials and, under radial or both loads, 1 or 2 logarithms.
+/// each evaluated once, with two exponentials at each point of the path and one logarithm; 10 evaluations of the
+/// six bearings, of which four are in loops and evaluated twice, with 2 exponentials and, under radial or both loads, 1 or 2 logarithms.
 const LAWS: [f64; 2] = [20.0 + 6.0 * NODES, 18.0];
 /// Minimum number of exponentials, logarithms and powers of the standard library for speed and oil, computed once: 6 bearings with 5
 /// and 3, 3 meshes with 1 and 2, two immersed wheels with four powers each. In a batch all torques share them.

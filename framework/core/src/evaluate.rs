@@ -643,8 +643,8 @@ impl Transmission {
         }
     }
 
-    /// What no torque depends on: forces of meshes and loads of supports without a law, moments of stationary components that carry
-    /// load.
+    /// What no torque depends on: forces of meshes, loads of supports without a law and of loops at the accepted torques, moments of stationary
+    /// components that carry load.
     fn rest<R: Answers>(&self, case: &Case, s: &mut Scratch<R>, notes: bool) {
         let m = &mut s.models;
         R::wide(

@@ -14,7 +14,8 @@ const STILL: f64 = 1e-12;
 const SAFETY: f64 = 0.5;
 /// Greatest exponent with which a loss is assumed to follow a torque.
 const STEEPEST: f64 = 2.0;
-/// Least curvature of a loss over a torque, as a share of the loss: two parts of a law may hide it from its secants.
+/// Least curvature of a loss over a torque, as a share of the loss: that of a constant plus a power with the exponent 1.5 whose tangent passes
+/// through the origin, so that a straight line through it seems to be the law.
 const LEAST_CURVATURE: f64 = 0.25;
 /// Share of a torque up to which a loss is assumed to follow it.
 const SMALL: f64 = 0.5;

@@ -43,7 +43,7 @@ impl Drive {
 /// Tolerance of the agreement between loads and losses, of one point or of each of several.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance<R = f64> {
-    /// Remaining change of any loss over the greatest power of the meshes and losses with which it is a loop.
+    /// Estimated error of any accepted loss over the greatest power of the meshes and losses with which it is a loop.
     pub power: R,
     /// Maximum number of iterations.
     pub passes: usize,

@@ -185,8 +185,9 @@ impl Real for Lane {
         while half > 1 {
             half /= 2;
             for point in 0..half {
-                least[point] = least[point].min(least[point + half]);
-                greatest[point] = greatest[point].max(greatest[point + half]);
+                let [low, high] = [least[point + half], greatest[point + half]];
+                least[point] = if low < least[point] { low } else { least[point] };
+                greatest[point] = if high > greatest[point] { high } else { greatest[point] };
             }
         }
         (least[0], greatest[0])

@@ -28,7 +28,7 @@ use crate::points::{Points, notes};
 use crate::register_analysis;
 use crate::study::{Grid, NameOr, ParameterKey, RangeEntry, Uses, Write};
 
-/// Relative noise of a mean loss. A point is solved until the remaining change is below 1e-9 of its power.
+/// Relative noise of a mean loss. A point is solved until the error of its losses is below 1e-9 of its power.
 const NOISE: f64 = 1e-9;
 /// Memory of a run without its outputs, roughly.
 const BYTES: usize = 192;

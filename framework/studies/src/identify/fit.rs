@@ -22,7 +22,7 @@ const SETTLED: f64 = 0.01;
 
 /// Remaining shift in standard errors at which a search ends.
 const REMAINING: f64 = 1e-3;
-/// Relative noise of the residuals: the remaining change of the iterated flow of power.
+/// Relative noise of the residuals: the error to which the flow of power is iterated.
 const NOISE: f64 = 1e-9;
 /// The same for a search: discontinuities of published laws make the misfit uneven. A search ends if derivatives predict a decrease of at
 /// most a thousand times this share of the misfit, in the worst case a fifth of a standard error along one combination.
